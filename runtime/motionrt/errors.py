@@ -1,0 +1,62 @@
+"""The typed errors of motionrt: one small tree, each class also the standard exception a caller would expect."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+
+class MotionRTError(Exception):
+    """Base of everything that motionrt raises on purpose; ``except MotionRTError`` catches it all."""
+
+
+class InvalidInputError(MotionRTError, ValueError):
+    """An argument has the wrong value, shape or type; the message says what is expected."""
+
+
+class FormatError(MotionRTError, ValueError):
+    """A motion file cannot be read.
+
+    Attributes:
+        path: the file.
+        line: 1-based line number, or ``None`` where lines mean nothing (binary files).
+        reason: what is wrong, in words.
+    """
+
+    def __init__(self, path: str | Path, reason: str, line: int | None = None) -> None:
+        self.path = Path(path)
+        self.line = line
+        self.reason = reason
+        place = f"{path}:{line}" if line is not None else str(path)
+        super().__init__(f"{place}: {reason}")
+
+
+class MotionFileNotFoundError(MotionRTError, FileNotFoundError):
+    """A motion file, or a file it depends on (an ``.asf`` skeleton), does not exist."""
+
+
+class RigError(MotionRTError, ValueError):
+    """A rig cannot be mapped to the ``smpl24`` skeleton; the message names the missing joints and the remedy."""
+
+
+class ManifestError(MotionRTError, ValueError):
+    """``models_manifest.yaml`` is malformed, of an unknown version, or has an unknown key."""
+
+
+class ModelNotFoundError(MotionRTError, LookupError):
+    """The manifest has no model or variant of that name; the message lists those it has."""
+
+
+class ModelFileError(MotionRTError, FileNotFoundError):
+    """A file that the manifest names is missing; the message says where it was looked for."""
+
+
+class ChecksumError(MotionRTError, ValueError):
+    """A file's sha256 is not the one expected; the message gives file, expected and found."""
+
+
+class GalleryError(MotionRTError, ValueError):
+    """A gallery cannot be used as it is: damaged, of another version, or made by another model."""
+
+
+class GalleryNotFoundError(MotionRTError, FileNotFoundError):
+    """There is no gallery in that folder; the message gives the command that builds one."""

@@ -1,0 +1,121 @@
+"""``Motion``: an animation of the canonical skeleton as an immutable value."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+
+from motionrt.errors import InvalidInputError
+from motionrt.motion import transforms
+from motionrt.motion.kinematics import fk
+from motionrt.motion.skeleton import SMPL24, FloatArray, Skeleton
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """``F`` frames of a character: Y up, metres, facing +Z in the rest pose, its left is +X.
+
+    Every method returns a new Motion; the arrays are read-only.
+
+    Attributes:
+        rotations: ``(F, J, 3, 3)`` float32, each joint's rotation local to its parent.
+        root: ``(F, 3)`` float32, position of the pelvis, metres.
+        fps: frames per second.
+        skeleton: the joint tree, ``smpl24`` unless said otherwise.
+
+    Raises:
+        InvalidInputError: wrong shapes, no frames, numbers that are not finite, or a frame rate that is not positive.
+    """
+
+    rotations: FloatArray
+    root: FloatArray
+    fps: float
+    skeleton: Skeleton = SMPL24
+
+    def __post_init__(self) -> None:
+        rotations = _frozen(self.rotations, "rotations", (len(self.skeleton), 3, 3))
+        root = _frozen(self.root, "root", (3,))
+        if len(rotations) != len(root):
+            raise InvalidInputError(f"rotations have {len(rotations)} frames but root has {len(root)}")
+        if not (np.isfinite(self.fps) and self.fps > 0):
+            raise InvalidInputError(f"fps must be a positive number, not {self.fps}")
+        object.__setattr__(self, "rotations", rotations)
+        object.__setattr__(self, "root", root)
+        object.__setattr__(self, "fps", float(self.fps))
+
+    def __repr__(self) -> str:
+        return f"Motion({self.frames} frames, {self.duration:.2f} s at {self.fps:g} fps, {len(self.skeleton)} joints)"
+
+    @property
+    def frames(self) -> int:
+        """Number of frames ``F``."""
+        return len(self.root)
+
+    @property
+    def duration(self) -> float:
+        """Seconds that the motion plays: ``F / fps``."""
+        return self.frames / self.fps
+
+    @cached_property
+    def _posed(self) -> tuple[FloatArray, FloatArray]:
+        positions, rotations = fk(self.rotations, self.root, self.skeleton.offsets, self.skeleton.parents)
+        for array in (positions, rotations):
+            array.setflags(write=False)
+        return positions.astype(np.float32, copy=False), rotations.astype(np.float32, copy=False)
+
+    def positions(self) -> FloatArray:
+        """Global joint positions ``(F, J, 3)``, metres, by forward kinematics (computed once)."""
+        return self._posed[0]
+
+    def global_rotations(self) -> FloatArray:
+        """Global joint rotations ``(F, J, 3, 3)`` (computed once)."""
+        return self._posed[1]
+
+    def __getitem__(self, frames: slice) -> Motion:
+        """The frames of a slice, as in ``motion[30:90]``."""
+        if not isinstance(frames, slice):
+            raise InvalidInputError("index a Motion with a slice of frames, as in motion[30:90]")
+        return replace(self, rotations=self.rotations[frames], root=self.root[frames])
+
+    def between(self, start_s: float, end_s: float) -> Motion:
+        """The frames from ``start_s`` up to ``end_s`` (seconds); at least one frame, clipped to the motion."""
+        first = min(max(round(start_s * self.fps), 0), self.frames - 1)
+        return self[first : max(round(end_s * self.fps), first + 1)]
+
+    def resample(self, fps: float) -> Motion:
+        """The same motion at another frame rate: rotations by slerp, root linearly; the first frame stays the first."""
+        return transforms.resample(self, fps)
+
+    def mirror(self) -> Motion:
+        """The motion seen in a mirror: left and right exchanged about the plane x = 0."""
+        return transforms.mirror(self)
+
+    def canonical(self) -> Motion:
+        """Turned and moved in the ground plane so that frame 0 stands above the origin and faces +Z."""
+        return transforms.canonical(self)
+
+    def grounded(self) -> Motion:
+        """Moved vertically so that the lowest foot of the whole motion touches the floor, y = 0."""
+        return transforms.grounded(self)
+
+    def save(self, path: str | Path) -> Path:
+        """Write the motion to ``path`` in the format that its suffix names (.bvh, .npz); returns the path."""
+        from motionrt.formats import save_motion  # the one call upwards, so that users need not know the floors
+
+        return save_motion(self, path)
+
+
+def _frozen(array: FloatArray, name: str, shape: tuple[int, ...]) -> FloatArray:
+    """A read-only float32 copy of ``array`` with ``shape`` behind its frame axis."""
+    out = np.array(array, dtype=np.float32)
+    if out.shape[1:] != shape or out.ndim != len(shape) + 1 or not len(out):
+        expected = ", ".join(map(str, shape))
+        raise InvalidInputError(f"{name} must have the shape (frames >= 1, {expected}), not {out.shape}")
+    if not np.isfinite(out).all():
+        bad = int(np.argmin(np.isfinite(out).reshape(len(out), -1).all(axis=1)))
+        raise InvalidInputError(f"{name} holds a number that is not finite, first in frame {bad}")
+    out.setflags(write=False)
+    return out

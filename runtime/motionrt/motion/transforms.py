@@ -1,0 +1,97 @@
+"""Whole-motion transforms: resampling, mirroring, canonical facing, grounding.
+
+They take and return a :class:`motionrt.motion.motion.Motion`, whose methods they are.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from motionrt.errors import InvalidInputError
+from motionrt.motion.rotations import (
+    Array,
+    axis_rotation,
+    matrix_to_quaternion,
+    quaternion_to_matrix,
+    slerp,
+    yaw_angle,
+)
+
+if TYPE_CHECKING:
+    from motionrt.motion.motion import Motion
+
+TOE_JOINTS = ("left_foot", "right_foot")
+_ACROSS_JOINTS = (("left_hip", "right_hip"), ("left_shoulder", "right_shoulder"))
+_MIRROR = np.diag([-1.0, 1.0, 1.0]).astype(np.float32)
+
+
+def facing(motion: Motion) -> Array:
+    """Unit heading of the body in the ground plane, ``(F, 3)``: across hips and shoulders, crossed with up."""
+    positions, index = motion.positions(), motion.skeleton.index
+    across = sum(positions[:, index(left)] - positions[:, index(right)] for left, right in _ACROSS_JOINTS)
+    forward = np.stack([-across[:, 2], np.zeros(motion.frames), across[:, 0]], axis=-1)  # left x up
+    length = np.linalg.norm(forward, axis=-1, keepdims=True)
+    return np.where(length < 1e-8, [0, 0, 1], forward / np.maximum(length, 1e-8)).astype(np.float32)
+
+
+def heading(motion: Motion) -> Array:
+    """Yaw of :func:`facing`, ``(F,)`` radians from +Z towards +X."""
+    return yaw_angle(facing(motion))
+
+
+def resample(motion: Motion, fps: float) -> Motion:
+    """``motion`` at ``fps`` frames per second; frame 0 stays frame 0, times beyond the last frame are not invented."""
+    if not (np.isfinite(fps) and fps > 0):
+        raise InvalidInputError(f"fps must be a positive number, not {fps}")
+    if abs(fps - motion.fps) < 1e-9:
+        return motion
+    count = int(np.floor((motion.frames - 1) * fps / motion.fps + 1e-6)) + 1
+    times = np.arange(count) * (motion.fps / fps)
+    before = np.minimum(times.astype(int), motion.frames - 1)
+    after = np.minimum(before + 1, motion.frames - 1)
+    weight = (times - before).astype(np.float32)
+    root = motion.root[before] * (1 - weight[:, None]) + motion.root[after] * weight[:, None]
+    rotations = motion.rotations[before]
+    if weight.max(initial=0) > 1e-6:  # between frames: spherical interpolation; otherwise frames are just picked
+        quaternions = matrix_to_quaternion(motion.rotations)
+        rotations = quaternion_to_matrix(slerp(quaternions[before], quaternions[after], weight[:, None]))
+    return replace(motion, rotations=rotations, root=root, fps=fps)
+
+
+def mirror(motion: Motion) -> Motion:
+    """Reflect about x = 0: ``R' = M R M`` of the opposite joint, with ``M = diag(-1, 1, 1)``."""
+    partners = list(motion.skeleton.mirrored_joints)
+    return replace(motion, rotations=_MIRROR @ motion.rotations[:, partners] @ _MIRROR, root=motion.root @ _MIRROR)
+
+
+def turned(motion: Motion, yaw: float) -> Motion:
+    """Turn about the vertical axis through the world's origin by ``yaw`` radians."""
+    turn = axis_rotation("Y", np.float32(yaw)).astype(np.float32)
+    rotations = motion.rotations.copy()
+    rotations[:, 0] = turn @ rotations[:, 0]
+    return replace(motion, rotations=rotations, root=motion.root @ turn.T)
+
+
+def moved(motion: Motion, offset: Array) -> Motion:
+    """Translate by ``offset`` ``(3,)`` metres."""
+    return replace(motion, root=motion.root + np.asarray(offset, dtype=np.float32))
+
+
+def canonical(motion: Motion) -> Motion:
+    """Frame 0 above the origin and facing +Z; heights stay."""
+    upright = turned(motion, -float(heading(motion)[0]))
+    return moved(upright, -upright.root[0] * np.array([1, 0, 1], dtype=np.float32))
+
+
+def floor_height(motion: Motion) -> float:
+    """Height in metres of the floor under ``motion``: the 1st percentile over frames of its lower toe joint."""
+    toes = [motion.skeleton.index(name) for name in TOE_JOINTS]
+    return float(np.percentile(motion.positions()[:, toes, 1].min(axis=1), 1.0))
+
+
+def grounded(motion: Motion) -> Motion:
+    """Moved vertically so that the floor of the motion (:func:`floor_height`) lies at y = 0."""
+    return moved(motion, np.array([0, -floor_height(motion), 0], dtype=np.float32))

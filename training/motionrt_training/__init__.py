@@ -1,0 +1,1 @@
+"""Training of the models that motionrt runs (needs torch; the runtime never imports this)."""

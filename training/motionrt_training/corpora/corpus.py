@@ -1,0 +1,67 @@
+"""The common shape of every captioned data set: clips of a recording, each with its texts and its split."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from functools import lru_cache
+from pathlib import Path
+
+from motionrt.errors import InvalidInputError
+from motionrt.formats import load_motion
+from motionrt.motion import Motion
+
+SPLITS = ("train", "val", "test")
+
+
+@dataclass(frozen=True)
+class Clip:
+    """A captioned stretch of one recording.
+
+    Attributes:
+        id: unique within the corpus.
+        path: the motion file.
+        start_s, end_s: seconds from the recording's first real frame; ``end_s`` ``None`` means to its end.
+        texts: captions that describe the whole stretch, at least one.
+        split: ``train``, ``val`` or ``test``.
+        labels: simultaneous action labels, where the data set has them.
+    """
+
+    id: str
+    path: Path
+    start_s: float
+    end_s: float | None
+    texts: tuple[str, ...]
+    split: str
+    labels: tuple[str, ...] = field(default=())
+
+    def __post_init__(self) -> None:
+        if self.split not in SPLITS:
+            raise InvalidInputError(f"clip {self.id}: split '{self.split}' is none of {SPLITS}")
+        if not self.texts or not all(text.strip() for text in self.texts):
+            raise InvalidInputError(f"clip {self.id}: every clip needs at least one text, none of them empty")
+        if self.end_s is not None and self.end_s <= self.start_s:
+            raise InvalidInputError(f"clip {self.id}: ends at {self.end_s} s, before it starts at {self.start_s} s")
+
+
+@dataclass(frozen=True)
+class MotionCorpus:
+    """A named list of clips, and how to read their recordings (``loader`` returns a grounded Motion)."""
+
+    name: str
+    clips: tuple[Clip, ...]
+    loader: Callable[[Path], Motion] = field(default=lambda path: load_motion(path).grounded())
+
+    def __len__(self) -> int:
+        return len(self.clips)
+
+    def split(self, name: str) -> MotionCorpus:
+        """The clips of one split."""
+        return MotionCorpus(self.name, tuple(clip for clip in self.clips if clip.split == name), self.loader)
+
+    def motions(self) -> Iterator[tuple[Clip, Motion]]:
+        """Every clip with its motion, in order; neighbouring clips of one recording read its file once."""
+        read = lru_cache(maxsize=2)(self.loader)
+        for clip in self.clips:
+            recording = read(clip.path)
+            yield clip, recording.between(clip.start_s, recording.duration if clip.end_s is None else clip.end_s)

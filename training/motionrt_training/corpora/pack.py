@@ -1,0 +1,71 @@
+"""The packed corpus: features of every clip, and of its mirror image, computed once into one ``.npz``.
+
+Arrays: ``features`` and ``features_mirror`` ``(frames of all clips, 263)`` float16, ``start`` and ``length`` ``(clips,)``
+int64 into them, and ``meta``, a JSON list with ``id``, ``split``, ``texts`` and ``texts_mirror`` for each clip.
+
+    python -m motionrt_training.corpora.pack cmu ../shared/data/mocap/cmu -o runs/cmu.npz
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+from tqdm import tqdm
+
+from motionrt.motion import Motion
+from motionrt.motion.features import guo263
+from motionrt.motion.skeleton import FloatArray
+from motionrt_training.corpora.cmu import read_cmu
+from motionrt_training.corpora.corpus import Clip, MotionCorpus
+from motionrt_training.corpora.text_mirror import mirror_text
+
+READERS: dict[str, Callable[[str], MotionCorpus]] = {"cmu": read_cmu}
+
+
+def pack(corpus: MotionCorpus, path: str | Path) -> Path:
+    """Write the ``guo263`` features and texts of ``corpus`` to ``path``; returns it."""
+    straight: list[FloatArray] = []
+    mirrored: list[FloatArray] = []
+    for _, motion in tqdm(corpus.motions(), total=len(corpus), desc=f"packing {corpus.name}", unit="clip"):
+        resampled = motion.resample(guo263.FPS)
+        straight.append(_encode(resampled))
+        mirrored.append(_encode(resampled.mirror()))
+    lengths = np.array([len(features) for features in straight])
+    target = Path(path)
+    target.parent.mkdir(parents=True, exist_ok=True)
+    np.savez_compressed(
+        target,
+        features=np.concatenate(straight),
+        features_mirror=np.concatenate(mirrored),
+        start=np.cumsum(lengths) - lengths,
+        length=lengths,
+        meta=json.dumps([_meta(clip) for clip in corpus.clips], ensure_ascii=False),
+    )
+    return target
+
+
+def _encode(motion: Motion) -> FloatArray:
+    return guo263.encode(motion).astype(np.float16)  # type: ignore[return-value]
+
+
+def _meta(clip: Clip) -> dict[str, object]:
+    texts = list(clip.texts)
+    return {"id": clip.id, "split": clip.split, "texts": texts, "texts_mirror": [mirror_text(text) for text in texts],
+            "labels": list(clip.labels)}  # fmt: skip
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description="Compute the features of a captioned corpus once.")
+    parser.add_argument("corpus", choices=sorted(READERS))
+    parser.add_argument("folder", help="the data set's folder")
+    parser.add_argument("-o", "--out", required=True, help="the .npz to write")
+    args = parser.parse_args()
+    pack(READERS[args.corpus](args.folder), args.out)
+
+
+if __name__ == "__main__":
+    main()

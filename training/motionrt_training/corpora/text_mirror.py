@@ -1,0 +1,37 @@
+"""What a caption becomes when its motion is mirrored: left and right, and the senses of rotation, change places."""
+
+from __future__ import annotations
+
+import re
+
+_SWAPS = {
+    "left": "right",
+    "right": "left",
+    "leftward": "rightward",
+    "rightward": "leftward",
+    "leftwards": "rightwards",
+    "rightwards": "leftwards",
+    "clockwise": "counterclockwise",
+    "counterclockwise": "clockwise",
+    "anticlockwise": "clockwise",
+    "counter-clockwise": "clockwise",
+    "anti-clockwise": "clockwise",
+    "lefty": "righty",
+    "righty": "lefty",
+}
+# "right away", "right angle" and "left the room" name no side.
+_NO_SIDE = re.compile(r"\bright (?:away|angles?)\b|\bleft the (?:room|house|area|scene|ground|floor)\b", re.I)
+_SIDED = re.compile(r"\b(?:counter-|anti-)?(?:clockwise|counterclockwise|anticlockwise|(?:left|right)(?:wards?|y)?)\b", re.I)
+
+
+def mirror_text(text: str) -> str:
+    """``text`` for the mirrored motion, keeping capitals: "Left hand, turning clockwise" -> "Right hand, turning ..."."""
+    kept = [match.span() for match in _NO_SIDE.finditer(text)]
+
+    def swap(match: re.Match[str]) -> str:
+        if any(start <= match.start() < end for start, end in kept):
+            return match.group()
+        swapped = _SWAPS[match.group().lower()]
+        return swapped.capitalize() if match.group()[0].isupper() else swapped
+
+    return _SIDED.sub(swap, text)
