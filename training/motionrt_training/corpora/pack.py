@@ -4,6 +4,7 @@ Arrays: ``features`` and ``features_mirror`` ``(frames of all clips, 263)`` floa
 int64 into them, and ``meta``, a JSON list with ``id``, ``split``, ``texts`` and ``texts_mirror`` for each clip.
 
     python -m motionrt_training.corpora.pack cmu ../shared/data/mocap/cmu -o runs/cmu.npz
+    python -m motionrt_training.corpora.pack humanml3d HumanML3D --amass AMASS -o runs/humanml3d.npz
 """
 
 from __future__ import annotations
@@ -16,14 +17,33 @@ from pathlib import Path
 import numpy as np
 from tqdm import tqdm
 
+from motionrt.errors import InvalidInputError
 from motionrt.motion import Motion
 from motionrt.motion.features import guo263
 from motionrt.motion.skeleton import FloatArray
+from motionrt_training.corpora.babel import read_babel
 from motionrt_training.corpora.cmu import read_cmu
 from motionrt_training.corpora.corpus import Clip, MotionCorpus
+from motionrt_training.corpora.humanml3d import read_humanml3d
+from motionrt_training.corpora.kitml import read_kitml
 from motionrt_training.corpora.text_mirror import mirror_text
 
-READERS: dict[str, Callable[[str], MotionCorpus]] = {"cmu": read_cmu}
+AMASS_READERS: dict[str, Callable[[str, str], MotionCorpus]] = {
+    "babel": read_babel,
+    "humanml3d": read_humanml3d,
+    "kitml": read_kitml,
+}
+
+
+def read_corpus(name: str, folder: str, amass: str | None = None) -> MotionCorpus:
+    """The corpus called ``name`` (cmu, kitml, humanml3d, babel); all but cmu annotate an AMASS folder."""
+    if name == "cmu":
+        return read_cmu(folder)
+    if name not in AMASS_READERS:
+        raise InvalidInputError(f"no corpus reader '{name}'; there are: cmu, {', '.join(sorted(AMASS_READERS))}")
+    if amass is None:
+        raise InvalidInputError(f"{name} annotates AMASS sequences: name their folder with --amass")
+    return AMASS_READERS[name](folder, amass)
 
 
 def pack(corpus: MotionCorpus, path: str | Path) -> Path:
@@ -60,11 +80,12 @@ def _meta(clip: Clip) -> dict[str, object]:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description="Compute the features of a captioned corpus once.")
-    parser.add_argument("corpus", choices=sorted(READERS))
-    parser.add_argument("folder", help="the data set's folder")
+    parser.add_argument("corpus", choices=["cmu", *sorted(AMASS_READERS)])
+    parser.add_argument("folder", help="the data set's folder of annotations (and, for cmu, motions)")
+    parser.add_argument("--amass", help="the AMASS folder that kitml, humanml3d and babel annotate")
     parser.add_argument("-o", "--out", required=True, help="the .npz to write")
     args = parser.parse_args()
-    pack(READERS[args.corpus](args.folder), args.out)
+    pack(read_corpus(args.corpus, args.folder, args.amass), args.out)
 
 
 if __name__ == "__main__":
