@@ -55,12 +55,13 @@ def matrix_to_euler(matrices: Array, order: str) -> Array:
         raise InvalidInputError(f"Euler order '{order}' must name three different axes")
     sign = 1.0 if (j - i) % 3 == 1 else -1.0
     m = np.asarray(matrices)
-    middle = np.arcsin(np.clip(sign * m[..., i, k], -1, 1))
-    locked = np.abs(m[..., i, k]) > 1 - 1e-7
     first = np.arctan2(-sign * m[..., j, k], m[..., k, k])
-    third = np.arctan2(-sign * m[..., i, j], m[..., i, i])
+    locked = np.hypot(m[..., j, k], m[..., k, k]) < 1e-6
     first = np.where(locked, np.arctan2(sign * m[..., k, j], m[..., j, j]), first)
-    return np.stack([first, middle, np.where(locked, 0, third)], axis=-1).astype(m.dtype)
+    rest = np.swapaxes(axis_rotation(order[0], first), -1, -2) @ m  # what the second and third angle are left with
+    middle = np.arctan2(sign * rest[..., i, k], rest[..., k, k])
+    third = np.where(locked, 0, np.arctan2(sign * rest[..., j, i], rest[..., j, j]))
+    return np.stack([first, middle, third], axis=-1).astype(m.dtype)
 
 
 def axis_angle_to_matrix(vectors: npt.ArrayLike) -> Array:

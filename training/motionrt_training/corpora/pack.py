@@ -73,9 +73,15 @@ def _encode(motion: Motion) -> FloatArray:
 
 
 def _meta(clip: Clip) -> dict[str, object]:
-    texts = list(clip.texts)
-    return {"id": clip.id, "split": clip.split, "texts": texts, "texts_mirror": [mirror_text(text) for text in texts],
-            "labels": list(clip.labels)}  # fmt: skip
+    texts = _texts(clip)
+    return {"id": clip.id, "split": clip.split, "texts": texts, "texts_mirror": [mirror_text(text) for text in texts]}
+
+
+def _texts(clip: Clip) -> list[str]:
+    """The clip's captions; to train on, also its action labels as one more."""
+    joined = " and ".join(clip.labels)
+    extra = [joined] if clip.split == "train" and joined and joined not in clip.texts else []
+    return [*clip.texts, *extra]
 
 
 def main() -> None:

@@ -1,0 +1,29 @@
+"""Writing a file so that it is either whole or not there."""
+
+from __future__ import annotations
+
+import uuid
+from collections.abc import Callable
+from pathlib import Path
+from typing import BinaryIO
+
+from motionrt.errors import InvalidInputError
+
+
+def write_atomically(path: str | Path, write: Callable[[BinaryIO], None]) -> Path:
+    """Let ``write`` fill a temporary file beside ``path``, then move it there; until then an old file stays.
+
+    Raises:
+        InvalidInputError: the system refuses (no such folder, no permission, disk full); says why.
+    """
+    path = Path(path)
+    temporary = path.with_name(f".{path.name}.{uuid.uuid4().hex[:8]}.tmp")
+    try:
+        with temporary.open("xb") as file:
+            write(file)
+        temporary.replace(path)
+    except OSError as error:
+        raise InvalidInputError(f"cannot write {path}: {error.strerror or error}") from error
+    finally:
+        temporary.unlink(missing_ok=True)
+    return path

@@ -1,0 +1,49 @@
+"""The numbers of a BVH file: all at once where they are sound, line by line where one is not."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from motionrt.errors import FormatError
+from motionrt.formats.text import line_of, to_float, to_floats
+
+Values = npt.NDArray[np.float64]
+
+
+def read_values(text: str, at: int, shape: tuple[int, int], path: Path) -> Values:
+    """Channel values ``(F, C)`` of the given shape from position ``at`` of the text to its end."""
+    values = to_floats(text[at:].split())
+    if values is None or values.size != shape[0] * shape[1]:
+        raise _diagnose(text[at:], line_of(text, at), shape, path)
+    return values.reshape(shape)
+
+
+def _diagnose(text: str, first_line: int, shape: tuple[int, int], path: Path) -> FormatError:
+    """What is wrong with the values, and on which line."""
+    rows = [(number, line.split()) for number, line in enumerate(text.split("\n"), start=first_line)]
+    rows = [(number, words) for number, words in rows if words]
+    try:
+        for number, words in rows:
+            for word in words:
+                to_float(word, path, number)
+    except FormatError as error:
+        return error
+    return _wrong_count([(number, len(words)) for number, words in rows], first_line, shape, path)
+
+
+def _wrong_count(
+    rows: list[tuple[int, int]], first_line: int, shape: tuple[int, int], path: Path
+) -> FormatError:
+    """An error for a wrong number of values, given line number and number of values of every filled line."""
+    frames, channels = shape
+    total = sum(count for _, count in rows)
+    declared = f"the file declares {frames} frames of {channels} values"
+    if len(rows) == frames:
+        line, count = next((line, count) for line, count in rows if count != channels)
+        return FormatError(path, f"{count} values on this line instead of {channels}: {declared}", line)
+    end = f", it ends in frame {total // channels + 1}" if total < frames * channels else ""
+    last_line = rows[-1][0] if rows else first_line
+    return FormatError(path, f"{declared} but holds {total / channels:.6g} frames{end}", last_line)

@@ -1,0 +1,78 @@
+"""What every text format needs: decoding, numbers in bulk, and the line on which something is wrong."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from motionrt.errors import FormatError, MotionFileNotFoundError
+
+LARGEST_VALUE = 1e7
+"""No coordinate (file units) and no angle (degrees) of a sane file is larger; float32 would be noise."""
+
+
+def require_file(path: Path) -> None:
+    """Raise MotionFileNotFoundError or FormatError unless ``path`` is an ordinary file."""
+    if path.is_dir():
+        raise FormatError(path, "is a folder, not a motion file")
+    if not path.exists():
+        raise MotionFileNotFoundError(f"no such motion file: {path}")
+
+
+def read_bytes(path: Path) -> bytes:
+    """All bytes of a file; what the system refuses to read becomes a FormatError."""
+    require_file(path)
+    try:
+        return path.read_bytes()
+    except OSError as error:
+        raise FormatError(path, f"cannot be read: {error.strerror or error}") from error
+
+
+def read_text(path: Path) -> str:
+    """The text of a file with Unix line ends: UTF-8 (with or without mark), else Latin-1; no binary files."""
+    raw = read_bytes(path)
+    if not raw.strip():
+        raise FormatError(path, "the file is empty")
+    if b"\0" in raw:
+        raise FormatError(path, "this is a binary file (or UTF-16), not UTF-8 text")
+    try:
+        text = raw.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        text = raw.decode("latin-1")
+    return text.replace("\r\n", "\n").replace("\r", "\n")
+
+
+def line_of(text: str, position: int) -> int:
+    """1-based line number of a character position."""
+    return text.count("\n", 0, position) + 1
+
+
+def to_float(word: str, path: Path, line: int) -> float:
+    """One finite number of sane size, or a FormatError that quotes the word."""
+    try:
+        value = float(word)
+    except ValueError:
+        raise FormatError(path, f"expected a number, found '{shorten(word)}'", line) from None
+    if not math.isfinite(value):
+        raise FormatError(path, f"'{shorten(word)}' is not a finite number", line)
+    if abs(value) > LARGEST_VALUE:
+        raise FormatError(path, f"{shorten(word)} is too large for a coordinate or an angle", line)
+    return value
+
+
+def to_floats(words: list[str]) -> npt.NDArray[np.float64] | None:
+    """All words as numbers at once, or ``None`` if any is no finite number of sane size."""
+    try:
+        values = np.fromiter(map(float, words), dtype=np.float64, count=len(words))
+    except ValueError:
+        return None
+    return values if bool((np.abs(values) <= LARGEST_VALUE).all()) else None
+
+
+def shorten(text: str, limit: int = 40) -> str:
+    """A piece of a file, fit to be quoted in a message."""
+    clean = "".join(c if c.isprintable() else "?" for c in text)
+    return clean if len(clean) <= limit else clean[: limit - 3] + "..."
