@@ -95,3 +95,12 @@ def test_decoding_projects_predicted_matrices_to_rotations() -> None:
     noisy = ccf219.encode(random_motion(5)) + np.random.default_rng(0).normal(0, 0.05, (5, 219)).astype(np.float32)
     decoded: Motion = ccf219.decode(noisy)
     np.testing.assert_allclose(np.linalg.det(decoded.rotations), 1, atol=1e-5)
+
+
+@settings(max_examples=10, deadline=None)
+@given(SEEDS)
+def test_mirrored_guo263_features_are_the_features_of_the_mirrored_motion(seed: int) -> None:
+    motion = random_motion(20, seed=seed)
+    mirrored = guo263.mirror(guo263.encode(motion))
+    np.testing.assert_allclose(mirrored, guo263.encode(motion.mirror()), atol=1e-5)
+    np.testing.assert_array_equal(guo263.mirror(mirrored), guo263.encode(motion))

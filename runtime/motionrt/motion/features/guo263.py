@@ -17,6 +17,7 @@ the motion started nor which way it faced, and it describes 22 joints: decoding 
 from __future__ import annotations
 
 import numpy as np
+import numpy.typing as npt
 
 from motionrt.motion.features.checks import checked_features
 from motionrt.motion.kinematics import global_to_local
@@ -81,6 +82,31 @@ def decode(features: FloatArray, fps: float = FPS) -> Motion:
     for joint in _PELVIS_CHILDREN:
         rotations[:, joint] = np.swapaxes(tilt, -1, -2) @ rotations[:, joint]
     return Motion(rotations, root, fps)
+
+
+def mirror(features: Array) -> Array:
+    """Features of the mirrored motion, ``(..., 263)`` of the same dtype: equal to encoding :meth:`Motion.mirror`."""
+    return np.asarray(features[..., _MIRROR_SOURCE] * _MIRROR_SIGN.astype(features.dtype))
+
+
+def _mirror_table() -> tuple[npt.NDArray[np.int64], Array]:
+    """For every feature, the one that it becomes in the mirror (x = 0), and its sign."""
+    source, sign = np.arange(WIDTH), np.ones(WIDTH)
+    partners = np.array(SMPL24.mirrored_joints[:SMPL22_JOINTS])
+    blocks = (
+        (POSITIONS, partners[1:] - 1, [-1, 1, 1]),
+        (ROTATIONS, partners[1:] - 1, [1, -1, -1, -1, 1, 1]),  # M R M, first two columns
+        (VELOCITIES, partners, [-1, 1, 1]),
+        (CONTACTS, np.array([2, 3, 0, 1]), [1]),
+    )
+    for columns, order, signs in blocks:
+        source[columns] = source[columns].reshape(len(order), -1)[order].ravel()
+        sign[columns] = np.tile(signs, len(order))
+    sign[[YAW_STEP, PLANAR.start]] = -1
+    return source, sign
+
+
+_MIRROR_SOURCE, _MIRROR_SIGN = _mirror_table()
 
 
 def _pelvis_tilt(x: FloatArray) -> Array:
