@@ -1,0 +1,71 @@
+"""motionrt: search 3D human motion by text, on two CPU cores, offline and without torch.
+
+The names below are loaded when they are first used, so that ``import motionrt`` costs nothing.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from motionrt.errors import MotionRTError
+    from motionrt.formats import load_motion, load_rig, save_motion
+    from motionrt.motion import SMPL24, Motion, Skeleton
+    from motionrt.retrieval import Gallery, Hit
+    from motionrt.runtime import Runtime
+
+    __version__: str
+
+__all__ = [
+    "SMPL24",
+    "Gallery",
+    "Hit",
+    "Motion",
+    "MotionRTError",
+    "Runtime",
+    "Skeleton",
+    "__version__",
+    "errors",
+    "load_motion",
+    "load_rig",
+    "save_motion",
+]
+
+_HOMES = {
+    "SMPL24": "motion",
+    "Gallery": "retrieval",
+    "Hit": "retrieval",
+    "Motion": "motion",
+    "MotionRTError": "errors",
+    "Runtime": "runtime",
+    "Skeleton": "motion",
+    "load_motion": "formats",
+    "load_rig": "formats",
+    "save_motion": "formats",
+}
+
+
+def __getattr__(name: str) -> Any:
+    if name == "__version__":
+        return _version()
+    if name == "errors":
+        return import_module("motionrt.errors")
+    if name not in _HOMES:
+        raise AttributeError(f"module 'motionrt' has no attribute '{name}'")
+    value = getattr(import_module(f"motionrt.{_HOMES[name]}"), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)
+
+
+def _version() -> str:
+    from importlib import metadata  # slow to import
+
+    try:
+        return metadata.version("motionrt")
+    except metadata.PackageNotFoundError:
+        return "0+unknown"

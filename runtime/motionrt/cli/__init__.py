@@ -1,0 +1,62 @@
+"""The command ``motionrt``: thin, no logic, and what it needs is imported only by the command that runs.
+
+Exit codes: 0 done, 1 an error (one line on stderr), 2 wrong usage, 3 a gallery was made but some files were
+    skipped,
+130 interrupted. Results go to stdout, everything else to stderr.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+
+from motionrt.cli import bench, convert, describe, galleries, models, moments, retrieve
+from motionrt.cli.console import close_quietly, prepare_streams, say
+from motionrt.errors import MotionRTError
+
+ERROR, INTERRUPTED, BROKEN_PIPE = 1, 130, 141
+_COMMANDS = (retrieve, galleries, describe, moments, convert, models, bench)
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run one command; returns the exit code."""
+    prepare_streams()
+    try:
+        arguments = _parser().parse_args(argv)
+        code = int(arguments.run(arguments))
+        sys.stdout.flush()
+    except SystemExit as stop:  # how argparse ends: help, version, usage
+        return stop.code if isinstance(stop.code, int) else 0
+    except MotionRTError as error:
+        say(f"motionrt: error: {' '.join(str(error).split())}")
+        return ERROR
+    except BrokenPipeError:  # the reader, head perhaps, has seen enough
+        close_quietly()
+        return BROKEN_PIPE
+    except KeyboardInterrupt:
+        return INTERRUPTED
+    return code
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="motionrt",
+        description="Search 3D human motion by text, offline, on a few CPU cores.",
+        epilog="'motionrt COMMAND --help' explains a command.",
+    )
+    parser.add_argument("--version", action=_Version, nargs=0, help="print the version and exit")
+    commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
+    for command in _COMMANDS:
+        command.add(commands)
+    return parser
+
+
+class _Version(argparse.Action):
+    """Finds the version only when it is asked for: looking it up is slow."""
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
+        import motionrt
+
+        print(f"motionrt {motionrt.__version__}")
+        parser.exit()

@@ -1,0 +1,122 @@
+"""``motionrt gallery``: build, update and look at galleries."""
+
+from __future__ import annotations
+
+import argparse
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from motionrt.cli.console import Progress, print_json, say
+from motionrt.cli.options import add_json, add_mapping, add_models, command, read_mapping, runtime
+
+if TYPE_CHECKING:
+    from motionrt.retrieval import BuildReport, Gallery
+
+SOME_SKIPPED = 3
+BUILD = """index a folder of motion files (.bvh, .amc, .npz), with all folders below it
+Files that cannot be read are listed with the reason, and the exit code is then 3."""
+UPDATE = """bring a gallery up to date with its folder
+Only new and changed files are read, and files that are gone are dropped."""
+INFO = """show what a gallery holds, and check its files for damage"""
+
+
+def add(commands: Any) -> None:
+    """Add the command and its three parts."""
+    group = commands.add_parser("gallery", help="build, update and look at galleries")
+    parts = group.add_subparsers(title="commands", metavar="COMMAND", required=True)
+    build = command(parts, "build", run_build, BUILD)
+    build.add_argument("folder", type=Path, help="where the motion files are")
+    build.add_argument(
+        "-o", "--out", type=Path, metavar="DIR", help="gallery (default: FOLDER/.motionrt-gallery)"
+    )
+    add_mapping(build)
+    update = command(parts, "update", run_update, UPDATE)
+    update.add_argument("gallery", type=Path, help="a gallery, or the folder that was indexed")
+    for parser in (build, update):
+        parser.add_argument(
+            "--jobs", type=int, metavar="N", help="processes, of one thread each (default: at most 2)"
+        )
+    info = command(parts, "info", run_info, INFO)
+    info.add_argument("gallery", type=Path, help="a gallery, or the folder that was indexed")
+    for parser in (build, update):
+        add_models(parser, threads=False)
+    for parser in (build, update, info):
+        add_json(parser)
+
+
+def run_build(arguments: argparse.Namespace) -> int:
+    """``gallery build``."""
+    started = time.perf_counter()
+    report = runtime(arguments).build_gallery(
+        arguments.folder,
+        arguments.out,
+        jobs=_jobs(arguments),
+        mapping=read_mapping(arguments.mapping),
+        progress=Progress(),
+    )
+    return _finish(report, arguments, time.perf_counter() - started)
+
+
+def run_update(arguments: argparse.Namespace) -> int:
+    """``gallery update``."""
+    started = time.perf_counter()
+    report = runtime(arguments).update_gallery(arguments.gallery, jobs=_jobs(arguments), progress=Progress())
+    return _finish(report, arguments, time.perf_counter() - started)
+
+
+def run_info(arguments: argparse.Namespace) -> int:
+    """``gallery info``."""
+    from motionrt.retrieval import Gallery
+
+    gallery = Gallery.open(arguments.gallery)
+    gallery.verify()
+    facts = describe(gallery)
+    if arguments.json:
+        print_json(facts)
+        return 0
+    model = gallery.model
+    print(f"gallery  {facts['gallery']}")
+    print(f"source   {facts['source'] or 'none (motions are stored in the gallery)'}")
+    print(f"clips    {facts['clips']}, {facts['hours']:.2f} h, {facts['windows']} windows of 10 s")
+    print(f"model    {model.name} ({model.fingerprint[:12]})")
+    print(f"skipped  {len(gallery.skipped)}")
+    for skipped in gallery.skipped:
+        print(f"  {skipped.path}: {skipped.reason}")
+    return 0
+
+
+def describe(gallery: Gallery) -> dict[str, Any]:
+    """What ``--json`` says of a gallery."""
+    return {
+        "gallery": str(gallery.folder),
+        "source": None if gallery.source is None else str(gallery.source),
+        "clips": len(gallery),
+        "windows": len(gallery.windows),
+        "hours": round(sum(clip.duration_s for clip in gallery.clips) / 3600, 4),
+        "model": {"name": gallery.model.name, "fingerprint": gallery.model.fingerprint},
+        "skipped": [{"path": skipped.path, "reason": skipped.reason} for skipped in gallery.skipped],
+    }
+
+
+def _finish(report: BuildReport, arguments: argparse.Namespace, seconds: float) -> int:
+    gallery = report.gallery
+    counts = {name: len(getattr(report, name)) for name in ("added", "changed", "unchanged", "removed")}
+    if arguments.json:
+        print_json({**describe(gallery), **counts, "seconds": round(seconds, 3)})
+    else:
+        print(f"{gallery.folder}: {len(gallery)} clips, {len(gallery.windows)} windows, in {seconds:.1f} s")
+        print(", ".join(f"{count} {name}" for name, count in counts.items()))
+    for skipped in gallery.skipped:
+        say(f"skipped {skipped.path}: {skipped.reason}")
+    if not gallery.skipped:
+        return 0
+    count = len(gallery.skipped)
+    say(f"motionrt: {count} {'file was' if count == 1 else 'files were'} skipped")
+    return SOME_SKIPPED
+
+
+def _jobs(arguments: argparse.Namespace) -> int:
+    from motionrt.models.threads import usable_cpus
+
+    return int(arguments.jobs) if arguments.jobs is not None else min(2, usable_cpus())

@@ -1,0 +1,56 @@
+"""``motionrt moments``: where in a long motion a text happens."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+from typing import Any
+
+from motionrt.cli.console import print_json, print_table
+from motionrt.cli.options import add_json, add_mapping, add_models, command, read_mapping, runtime
+from motionrt.cli.plot import curve_lines
+
+HELP = """find the moments of a long motion that fit a text
+Windows of 0.5 to 3 s slide over the motion; spans that repeat a better one are left out."""
+
+
+def add(commands: Any) -> None:
+    """Add the command."""
+    parser = command(commands, "moments", run, HELP)
+    parser.add_argument("text", help="a sentence, as in 'a person turns around'")
+    parser.add_argument("clip", type=Path, help="a motion file (.bvh, .amc, .npz)")
+    parser.add_argument("-k", type=int, default=5, metavar="N", help="how many moments at most (default: 5)")
+    parser.add_argument("--plot", action="store_true", help="draw the similarity over time")
+    add_mapping(parser)
+    add_json(parser)
+    add_models(parser)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Print the moments, and the curve when asked for."""
+    from motionrt.formats import load_motion
+
+    motion = load_motion(arguments.clip, mapping=read_mapping(arguments.mapping))
+    found = runtime(arguments).moments(arguments.text, motion, arguments.k)
+    if arguments.json:
+        print_json(
+            [
+                {
+                    "rank": m.rank,
+                    "score": round(m.score, 6),
+                    "start": round(m.start_s, 3),
+                    "end": round(m.end_s, 3),
+                }
+                for m in found.best
+            ]
+        )
+    else:
+        rows = [[str(m.rank), f"{m.score:.3f}", f"{m.start_s:.2f}", f"{m.end_s:.2f}"] for m in found.best]
+        print_table(["rank", "score", "start", "end"], rows, ">>>>")
+    if arguments.plot:
+        stream = sys.stderr if arguments.json else sys.stdout  # JSON stays alone on stdout
+        best = [(m.start_s, m.end_s) for m in found.best]
+        for line in curve_lines(found.curve.tolist(), found.fps, best[:1], stream.encoding):
+            print(line, file=stream)
+    return 0

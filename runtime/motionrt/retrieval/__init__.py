@@ -1,0 +1,38 @@
+"""Search a motion library: galleries, text to motion, motion to text, moments."""
+
+from motionrt.retrieval.assembly import BuildReport, Progress
+from motionrt.retrieval.build import build_gallery, update_gallery
+from motionrt.retrieval.captions import EmbeddedCaptions, checked_captions, read_captions
+from motionrt.retrieval.describe import Description, describe
+from motionrt.retrieval.gallery import Gallery
+from motionrt.retrieval.moments import Moment, Moments, find_moments
+from motionrt.retrieval.records import Clip, Skipped
+from motionrt.retrieval.search import ExactIndex, Hit, VectorIndex
+from motionrt.retrieval.store import GALLERY_FILE, locate
+from motionrt.retrieval.windows import embed_whole, motion_features, window_spans
+
+__all__ = [
+    "GALLERY_FILE",
+    "BuildReport",
+    "Clip",
+    "Description",
+    "EmbeddedCaptions",
+    "ExactIndex",
+    "Gallery",
+    "Hit",
+    "Moment",
+    "Moments",
+    "Progress",
+    "Skipped",
+    "VectorIndex",
+    "build_gallery",
+    "checked_captions",
+    "describe",
+    "embed_whole",
+    "find_moments",
+    "locate",
+    "motion_features",
+    "read_captions",
+    "update_gallery",
+    "window_spans",
+]

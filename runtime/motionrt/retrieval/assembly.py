@@ -1,0 +1,140 @@
+"""The work of a build: index what is new, keep what is known, write the gallery in one step."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+import numpy as np
+
+from motionrt.errors import GalleryError
+from motionrt.retrieval import layout
+from motionrt.retrieval.gallery import Gallery
+from motionrt.retrieval.indexing import FileJob, IndexedClip, OpenModel, Outcome, SameContent, index_files
+from motionrt.retrieval.records import ModelStamp, Skipped, window_table
+from motionrt.retrieval.windows import MotionEmbedder
+
+Progress = Callable[[int, int, str], None]
+
+
+@dataclass(frozen=True)
+class BuildReport:
+    """What a build or update did.
+
+    Attributes:
+        gallery: the gallery as it is on disk now; ``gallery.skipped`` lists what could not be indexed.
+        added, changed, unchanged, removed: ids of clips, against the gallery that was there.
+    """
+
+    gallery: Gallery
+    added: tuple[str, ...]
+    changed: tuple[str, ...]
+    unchanged: tuple[str, ...]
+    removed: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Plan:
+    """From where to where, and what is there already."""
+
+    source: Path
+    target: Path
+    files: list[str]
+    closed: list[Skipped]
+    mapping: Mapping[str, str] | None
+    known: dict[str, IndexedClip] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Workers:
+    """Who does the work, and who is told."""
+
+    open_model: OpenModel
+    model: MotionEmbedder
+    jobs: int
+    progress: Progress | None
+
+
+def run(plan: Plan, workers: Workers) -> BuildReport:
+    """Index what is not known, and write the gallery; the caller holds the lock of its folder."""
+    jobs = [_job(plan, name) for name in plan.files if not _same_on_disk(plan, name)]
+    outcomes = _outcomes(jobs, workers)
+    skipped = sorted([*plan.closed, *_of_kind(outcomes, Skipped)], key=lambda item: item.path)
+    clips = [clip for name in plan.files if (clip := _clip(name, outcomes, plan.known)) is not None]
+    if not clips:
+        raise GalleryError(
+            f"none of the {len(plan.files)} motion files in {plan.source} could be read; "
+            f"the first: {skipped[0].path}: {skipped[0].reason}"
+        )
+    stamp = ModelStamp(workers.model.name, workers.model.fingerprint)
+    gallery = _assembled(plan, clips, skipped, stamp)
+    layout.save(gallery, plan.target)
+    return _report(plan, Gallery.open(plan.target), outcomes)
+
+
+def _job(plan: Plan, name: str) -> FileJob:
+    known = plan.known.get(name)
+    return FileJob(plan.source, name, plan.mapping, known.clip.sha256 if known else None)
+
+
+def _same_on_disk(plan: Plan, name: str) -> bool:
+    known = plan.known.get(name)
+    if known is None:
+        return False
+    try:
+        stat = (plan.source / name).stat()
+    except OSError:
+        return False
+    return (stat.st_size, stat.st_mtime_ns) == (known.clip.size, known.clip.mtime_ns)
+
+
+def _outcomes(jobs: list[FileJob], workers: Workers) -> dict[str, Outcome]:
+    outcomes: dict[str, Outcome] = {}
+    indexed = index_files(jobs, workers.model, workers.open_model, workers.jobs)
+    for job, outcome in zip(jobs, indexed, strict=True):
+        outcomes[job.id] = outcome
+        if workers.progress is not None:
+            workers.progress(len(outcomes), len(jobs), job.id)
+    return outcomes
+
+
+def _clip(name: str, outcomes: dict[str, Outcome], known: dict[str, IndexedClip]) -> IndexedClip | None:
+    """The clip of a file as it is now: just indexed, or from before, or none when the file was skipped."""
+    outcome = outcomes.get(name)
+    if isinstance(outcome, IndexedClip):
+        return outcome
+    if isinstance(outcome, Skipped):
+        return None
+    before = known[name]
+    if isinstance(outcome, SameContent):
+        return replace(before, clip=replace(before.clip, size=outcome.size, mtime_ns=outcome.mtime_ns))
+    return before
+
+
+def _assembled(plan: Plan, clips: list[IndexedClip], skipped: list[Skipped], stamp: ModelStamp) -> Gallery:
+    return Gallery(
+        clips=tuple(item.clip for item in clips),
+        embeddings=np.concatenate([item.embeddings for item in clips]).astype(np.float32, copy=False),
+        windows=window_table([item.spans for item in clips]),
+        model=stamp,
+        source=plan.source,
+        skipped=tuple(skipped),
+        mapping=plan.mapping,
+    )
+
+
+def _report(plan: Plan, gallery: Gallery, outcomes: dict[str, Outcome]) -> BuildReport:
+    read = {name for name, outcome in outcomes.items() if isinstance(outcome, IndexedClip)}
+    ids = [clip.id for clip in gallery.clips]
+    return BuildReport(
+        gallery,
+        added=tuple(name for name in ids if name not in plan.known),
+        changed=tuple(name for name in ids if name in plan.known and name in read),
+        unchanged=tuple(name for name in ids if name not in read),
+        removed=tuple(name for name in plan.known if name not in set(ids)),
+    )
+
+
+def _of_kind(outcomes: dict[str, Outcome], kind: type[Skipped]) -> list[Skipped]:
+    return [outcome for outcome in outcomes.values() if isinstance(outcome, kind)]

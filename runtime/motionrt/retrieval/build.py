@@ -1,0 +1,89 @@
+"""Build and update a gallery from a folder of motion files."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+
+from motionrt.errors import GalleryError, InvalidInputError
+from motionrt.retrieval.assembly import BuildReport, Plan, Progress, Workers, run
+from motionrt.retrieval.gallery import Gallery
+from motionrt.retrieval.indexing import IndexedClip, OpenModel
+from motionrt.retrieval.locking import writing
+from motionrt.retrieval.scan import find_motion_files
+from motionrt.retrieval.store import DEFAULT_FOLDER
+
+
+def build_gallery(
+    folder: str | Path,
+    open_model: OpenModel,
+    *,
+    out: str | Path | None = None,
+    jobs: int = 1,
+    mapping: Mapping[str, str] | None = None,
+    progress: Progress | None = None,
+) -> BuildReport:
+    """Index every motion file below ``folder``; files that cannot be read are reported, not fatal.
+
+    The gallery replaces the one at ``out`` in one step when it is complete, and does not depend on ``jobs``.
+
+    Args:
+        folder: searched recursively, every supported format.
+        open_model: opens the motion model, once per process; must survive pickling when ``jobs`` is above 1.
+        out: where the gallery goes, by default ``.motionrt-gallery`` inside ``folder``.
+        jobs: processes.
+        mapping: joint names of an unusual rig (``smpl24`` name -> name in the files).
+        progress: called with files done, files in all and the file's name.
+
+    Raises:
+        MotionFileNotFoundError, InvalidInputError: no such folder, no motion file in it, or ``jobs`` below 1.
+        GalleryError: no file could be read, the place cannot be written, or another process writes there.
+    """
+    source = Path(folder).resolve()
+    files, closed = find_motion_files(source)
+    target = Path(out) if out is not None else source / DEFAULT_FOLDER
+    workers = Workers(open_model, open_model(), _checked_jobs(jobs), progress)
+    with writing(target):
+        return run(Plan(source, target, files, closed, mapping), workers)
+
+
+def update_gallery(
+    path: str | Path, open_model: OpenModel, *, jobs: int = 1, progress: Progress | None = None
+) -> BuildReport:
+    """Bring a gallery up to date with its folder: only new and changed files are read, removed ones go.
+
+    A file is unchanged when its size and modification time are, or else its checksum. Files that were skipped
+    are tried again. An ``.amc`` counts as unchanged when only its ``.asf`` changed; build again then.
+
+    Raises:
+        GalleryNotFoundError, GalleryError: no gallery, damaged, by another model, or not from files.
+        MotionFileNotFoundError, InvalidInputError: the indexed folder is gone, or empty now.
+    """
+    folder = Gallery.open(path).folder or Path(path)
+    workers = Workers(open_model, open_model(), _checked_jobs(jobs), progress)
+    with writing(folder):
+        old = Gallery.open(folder)
+        if old.source is None:
+            raise GalleryError(f"the gallery in {folder} was not made from files: nothing to update it from")
+        old.check_model(workers.model.fingerprint, workers.model.name)
+        files, closed = find_motion_files(old.source)
+        return run(Plan(old.source, folder, files, closed, old.mapping, _indexed(old)), workers)
+
+
+def _indexed(gallery: Gallery) -> dict[str, IndexedClip]:
+    """The clips of a gallery with their windows, by id."""
+    bounds = np.searchsorted(gallery.windows["clip"], np.arange(len(gallery) + 1))
+    clips = {}
+    for number, clip in enumerate(gallery.clips):
+        part = slice(int(bounds[number]), int(bounds[number + 1]))
+        spans = [(float(row["start_s"]), float(row["end_s"])) for row in gallery.windows[part]]
+        clips[clip.id] = IndexedClip(clip, spans, gallery.embeddings[part])
+    return clips
+
+
+def _checked_jobs(jobs: int) -> int:
+    if jobs < 1:
+        raise InvalidInputError(f"jobs must be at least 1, not {jobs}")
+    return jobs

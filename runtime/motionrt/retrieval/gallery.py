@@ -1,0 +1,198 @@
+"""``Gallery``: the embeddings of a motion library, on disk and memory-mapped."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+
+from motionrt.errors import GalleryError, InvalidInputError
+from motionrt.formats import load_motion
+from motionrt.motion import Motion
+from motionrt.motion.skeleton import FloatArray
+from motionrt.retrieval import layout, store
+from motionrt.retrieval.locking import writing
+from motionrt.retrieval.motion_pack import MotionPack
+from motionrt.retrieval.records import Clip, ModelStamp, Skipped, WindowTable, window_table
+from motionrt.retrieval.search import ExactIndex, Hit, VectorIndex, checked_k, nearest_per_group
+from motionrt.retrieval.windows import MotionEmbedder, embed_windows, motion_features, spans_in_seconds
+
+
+@dataclass(frozen=True, eq=False)
+class Gallery:
+    """Clips, and the embeddings of their windows (10 s long, every 5 s; a shorter clip is one window).
+
+    Attributes:
+        clips: ``N`` clips, ordered by id.
+        embeddings: ``(W, 256)`` float32 unit vectors, memory-mapped when opened from disk.
+        windows: ``(W,)`` records of clip number, ``start_s`` and ``end_s``, in the order of the clips.
+        model: which model made the embeddings; only the same model may search them.
+        source: the folder that was indexed, ``None`` when the clips are not files.
+        skipped: files of that folder that could not be indexed.
+        mapping: the joint mapping that the files were read with, if any.
+        motions: the clips themselves, or the file that holds them, when the gallery carries them.
+        folder: where the gallery was opened or saved, ``None`` for one in memory.
+    """
+
+    clips: tuple[Clip, ...]
+    embeddings: FloatArray
+    windows: WindowTable
+    model: ModelStamp
+    source: Path | None = None
+    skipped: tuple[Skipped, ...] = ()
+    mapping: Mapping[str, str] | None = None
+    motions: MotionPack | Path | None = None
+    folder: Path | None = None
+
+    def __len__(self) -> int:
+        return len(self.clips)
+
+    def __repr__(self) -> str:
+        place = f" in {self.folder}" if self.folder else ""
+        return f"Gallery({len(self)} clips, {len(self.windows)} windows{place})"
+
+    @classmethod
+    def open(cls, path: str | Path) -> Gallery:
+        """Open a gallery folder, or the gallery of an indexed folder.
+
+        Raises:
+            GalleryNotFoundError: there is none; the message gives the command that builds it.
+            GalleryError: it is damaged or of another version.
+        """
+        return layout.opened(cls, store.locate(Path(path)))
+
+    @classmethod
+    def from_motions(
+        cls,
+        motions: Sequence[Motion],
+        ids: Sequence[str],
+        model: MotionEmbedder,
+        *,
+        texts: Sequence[str] | None = None,
+        store_motions: bool = True,
+    ) -> Gallery:
+        """A gallery of motions in memory, in the order of their ids; :meth:`save` writes it.
+
+        Args:
+            motions: at least one motion of ``smpl24``.
+            ids: a name for each, all different.
+            model: the model that embeds them.
+            texts: what each shows.
+            store_motions: carry the motions inside the gallery, so that hits can be saved anywhere.
+        """
+        if not motions or len(set(ids)) != len(motions) or len(texts or ids) != len(ids):
+            raise InvalidInputError("a gallery needs motions, and as many different ids and texts")
+        order = sorted(range(len(ids)), key=lambda i: ids[i])
+        embedded = [embed_windows(model, motion_features(motions[i])) for i in order]
+        clips = [Clip(ids[i], motions[i].duration, text=texts[i] if texts else None) for i in order]
+        spans = [
+            spans_in_seconds(frames, clip.duration_s)
+            for (_, frames), clip in zip(embedded, clips, strict=True)
+        ]
+        return cls(
+            tuple(clips),
+            np.concatenate([embeddings for embeddings, _ in embedded]),
+            window_table(spans),
+            ModelStamp(model.name, model.fingerprint),
+            motions=MotionPack.of([motions[i] for i in order]) if store_motions else None,
+        )
+
+    def save(self, folder: str | Path) -> Gallery:
+        """Write the gallery to ``folder``, replacing the one there in one step; returns it as opened there.
+
+        Raises:
+            GalleryError: the folder cannot be written, or another process is writing there.
+        """
+        folder = Path(folder)
+        with writing(folder):
+            layout.save(self, folder)
+        return Gallery.open(folder)
+
+    def verify(self) -> None:
+        """Read the gallery's files in full and check their checksums; GalleryError names a damaged one."""
+        if self.folder is not None:
+            store.verify(self.folder, store.read_head(self.folder)["files"])
+
+    def check_model(self, fingerprint: str, name: str) -> None:
+        """GalleryError unless the model with that fingerprint made this gallery."""
+        if fingerprint == self.model.fingerprint:
+            return
+        which = f"the gallery {self.folder}" if self.folder else "the gallery"
+        raise GalleryError(
+            f"{which} was made by the model {self.model.name} ({self.model.fingerprint[:12]}), not by {name} "
+            f"({fingerprint[:12]}); build it again: {self._build_command()}"
+        )
+
+    def search(self, query: FloatArray, k: int = 10, *, per_clip: bool = True) -> list[Hit]:
+        """The ``min(k, N)`` best hits for a unit vector ``(256,)``, exact, best first.
+
+        Args:
+            query: an embedding by the gallery's model (:meth:`check_model`).
+            k: how many, at least 1.
+            per_clip: only the best window of every clip; otherwise every window is a hit of its own.
+        """
+        k = checked_k(k)
+        query = np.asarray(query, dtype=np.float32)
+        if query.shape != self.embeddings.shape[1:]:
+            raise InvalidInputError(f"a query is a vector of {self.embeddings.shape[1]}, not {query.shape}")
+        if per_clip:
+            found, scores = nearest_per_group(self._index, query, k, self.windows["clip"])
+        else:
+            found, scores = self._index.nearest(query, k)
+        return [
+            self._hit(rank, int(i), float(s))
+            for rank, (i, s) in enumerate(zip(found, scores, strict=True), 1)
+        ]
+
+    def path(self, clip: Clip) -> Path | None:
+        """The clip's file, ``None`` when it has none."""
+        return self.source / clip.id if self.source is not None and clip.is_file else None
+
+    def motion(self, hit: Hit | str) -> Motion:
+        """The motion of a hit, cut to its span, or of a whole clip by its id.
+
+        Raises:
+            InvalidInputError: no clip with that id.
+            GalleryError: the gallery carries neither the motion nor a file's name.
+            MotionFileNotFoundError, FormatError: the clip's file is gone, or broken now.
+        """
+        clip_id = hit if isinstance(hit, str) else hit.id
+        if clip_id not in self._numbers:
+            raise InvalidInputError(f"no clip '{clip_id}' in this gallery")
+        motion = self._load(self._numbers[clip_id])
+        return motion if isinstance(hit, str) else motion.between(hit.start_s, hit.end_s)
+
+    def _build_command(self) -> str:
+        out = f' -o "{self.folder}"' if self.folder and self.folder.name != store.DEFAULT_FOLDER else ""
+        return f'motionrt gallery build "{self.source or "FOLDER"}"{out}'
+
+    def _load(self, number: int) -> Motion:
+        if self.pack is not None:
+            return self.pack[number]
+        clip = self.clips[number]
+        path = self.path(clip)
+        if path is None:
+            raise GalleryError(f"the motion of '{clip.id}' is not in the gallery, only its embedding")
+        return load_motion(path, mapping=self.mapping)
+
+    def _hit(self, rank: int, window: int, score: float) -> Hit:
+        row = self.windows[window]
+        clip = self.clips[int(row["clip"])]
+        start, end = float(row["start_s"]), float(row["end_s"])
+        return Hit(rank, score, clip.id, self.path(clip), start, end, clip.text)
+
+    @cached_property
+    def pack(self) -> MotionPack | None:
+        """The motions that the gallery carries, read when first needed."""
+        return MotionPack.read(self.motions) if isinstance(self.motions, Path) else self.motions
+
+    @cached_property
+    def _index(self) -> VectorIndex:
+        return ExactIndex(self.embeddings)
+
+    @cached_property
+    def _numbers(self) -> dict[str, int]:
+        return {clip.id: number for number, clip in enumerate(self.clips)}

@@ -1,0 +1,104 @@
+"""Between a :class:`~motionrt.retrieval.gallery.Gallery` and what its folder holds."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import asdict
+from functools import partial
+from pathlib import Path
+from typing import IO, TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from motionrt.motion.skeleton import FloatArray
+from motionrt.retrieval import store
+from motionrt.retrieval.records import WINDOW_TYPE, Clip, ModelStamp, Skipped, WindowTable
+
+if TYPE_CHECKING:
+    from motionrt.retrieval.gallery import Gallery
+
+
+def save(gallery: Gallery, folder: Path) -> None:
+    """Write the gallery's files; the caller holds the folder's lock."""
+    arrays: dict[str, tuple[str, store.Writer]] = {
+        "embeddings": (".npy", partial(_write_npy, array=gallery.embeddings)),
+        "windows": (".npy", partial(_write_npy, array=gallery.windows)),
+    }
+    pack = gallery.pack
+    if pack is not None:
+        arrays["motions"] = (".npz", pack.write)
+    store.write(folder, _head(gallery, folder), arrays)
+
+
+def opened(kind: type[Gallery], folder: Path) -> Gallery:
+    """The gallery of a folder that holds one; GalleryError when its parts do not fit together."""
+    try:
+        return _assembled(kind, folder, store.read_head(folder))
+    except FileNotFoundError:  # another process replaced the gallery just after its head was read
+        pass
+    try:
+        return _assembled(kind, folder, store.read_head(folder))
+    except FileNotFoundError as error:
+        raise store.damaged(folder, f"no file {error.filename}") from error
+
+
+def _assembled(kind: type[Gallery], folder: Path, head: dict[str, Any]) -> Gallery:
+    try:
+        gallery = _read(kind, folder, head)
+    except (KeyError, TypeError, AttributeError) as error:
+        raise store.damaged(folder / store.GALLERY_FILE, f"{type(error).__name__}: {error}") from error
+    _check(gallery.embeddings, gallery.windows, len(gallery), folder)
+    return gallery
+
+
+def _read(kind: type[Gallery], folder: Path, head: dict[str, Any]) -> Gallery:
+    files = head["files"]
+    return kind(
+        clips=tuple(Clip(**clip) for clip in head["clips"]),
+        embeddings=store.read_array(folder, files["embeddings"]),
+        windows=store.read_array(folder, files["windows"]),
+        model=ModelStamp(**head["model"]),
+        source=_source(folder, head["source"]),
+        skipped=tuple(Skipped(**skipped) for skipped in head["skipped"]),
+        mapping=head["mapping"],
+        motions=folder / files["motions"] if "motions" in files else None,
+        folder=folder,
+    )
+
+
+def _check(embeddings: FloatArray, windows: WindowTable, clips: int, folder: Path) -> None:
+    """GalleryError unless every clip has windows, in order, and every window an embedding."""
+    if embeddings.dtype != np.float32 or embeddings.ndim != 2 or windows.dtype != WINDOW_TYPE:
+        raise store.damaged(folder, "an array has the wrong type")
+    owners = windows["clip"]
+    if len(embeddings) != len(windows) or not np.array_equal(np.unique(owners), np.arange(clips)):
+        raise store.damaged(folder, "clips, windows and embeddings do not fit together")
+
+
+def _head(gallery: Gallery, folder: Path) -> dict[str, Any]:
+    return {
+        "model": asdict(gallery.model),
+        "source": _noted_source(gallery.source, folder),
+        "mapping": dict(gallery.mapping) if gallery.mapping else None,
+        "clips": [asdict(clip) for clip in gallery.clips],
+        "skipped": [asdict(skipped) for skipped in gallery.skipped],
+    }
+
+
+def _noted_source(source: Path | None, folder: Path) -> str | None:
+    """Relative when the gallery lies inside the indexed folder, so that both can move; else absolute."""
+    if source is None:
+        return None
+    source, folder = source.resolve(), folder.resolve()
+    if folder.is_relative_to(source):
+        return Path(os.path.relpath(source, folder)).as_posix()
+    return source.as_posix()
+
+
+def _source(folder: Path, noted: str | None) -> Path | None:
+    return None if noted is None else Path(os.path.normpath(folder.absolute() / noted))
+
+
+def _write_npy(file: IO[bytes], array: npt.NDArray[Any]) -> None:
+    np.lib.format.write_array(file, np.ascontiguousarray(array), allow_pickle=False)

@@ -1,0 +1,82 @@
+"""Motions carried inside a gallery, for when their files are not on the machine.
+
+Rotations are stored as rotation vectors in steps of pi / 32767 (an error below 0.1 mm at arm's length), as
+differences from frame to frame, which compress well; roots are float32.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import IO, Any
+from zipfile import BadZipFile
+
+import numpy as np
+import numpy.typing as npt
+
+from motionrt.errors import GalleryError, InvalidInputError
+from motionrt.motion import SMPL24, Motion
+from motionrt.motion.rotations import axis_angle_to_matrix, matrix_to_axis_angle
+from motionrt.motion.skeleton import FloatArray
+
+_STEP = np.pi / 32767
+
+
+@dataclass(frozen=True, eq=False)
+class MotionPack:
+    """Motions of ``smpl24``, one behind the other.
+
+    Attributes:
+        turns: ``(sum F, 24, 3)`` int16 rotation vectors in steps of pi / 32767.
+        roots: ``(sum F, 3)`` float32 metres.
+        starts: ``(N + 1,)`` int64, the first frame of every motion, and the end.
+        fps: ``(N,)`` float64.
+    """
+
+    turns: npt.NDArray[np.int16]
+    roots: FloatArray
+    starts: npt.NDArray[np.int64]
+    fps: npt.NDArray[np.float64]
+
+    @classmethod
+    def of(cls, motions: Sequence[Motion]) -> MotionPack:
+        """Pack motions; InvalidInputError for another skeleton than ``smpl24``."""
+        if any(motion.skeleton != SMPL24 for motion in motions):
+            raise InvalidInputError("only motions of the smpl24 skeleton can be stored in a gallery")
+        turns = [np.rint(matrix_to_axis_angle(m.rotations) / _STEP).astype(np.int16) for m in motions]
+        lengths = [motion.frames for motion in motions]
+        starts = np.concatenate([[0], np.cumsum(lengths)]).astype(np.int64)
+        roots = np.concatenate([motion.root for motion in motions])
+        return cls(np.concatenate(turns), roots, starts, np.array([motion.fps for motion in motions]))
+
+    def __len__(self) -> int:
+        return len(self.fps)
+
+    def __getitem__(self, index: int) -> Motion:
+        """The motion with that number."""
+        part = slice(int(self.starts[index]), int(self.starts[index + 1]))
+        rotations = axis_angle_to_matrix(self.turns[part].astype(np.float64) * _STEP)
+        return Motion(rotations.astype(np.float32), self.roots[part], float(self.fps[index]))
+
+    def write(self, file: IO[bytes]) -> None:
+        """Write as an ``.npz``; the same motions give the same bytes."""
+        before = np.zeros_like(self.turns[:1])
+        steps = np.diff(self.turns, axis=0, prepend=before)  # int16 wraps, and wraps back when summed
+        np.savez_compressed(file, steps=steps, roots=self.roots, starts=self.starts, fps=self.fps)
+
+    @classmethod
+    def read(cls, path: Path) -> MotionPack:
+        """Read an ``.npz``; GalleryError when it is missing or damaged."""
+        try:
+            with np.load(path, allow_pickle=False) as data:
+                pack = cls(_summed(data["steps"]), data["roots"], data["starts"], data["fps"])
+        except (OSError, ValueError, KeyError, EOFError, BadZipFile) as error:
+            raise GalleryError(f"{path} is damaged ({error}); build the gallery again") from error
+        if len(pack.turns) != len(pack.roots) or pack.starts[-1:].tolist() != [len(pack.roots)]:
+            raise GalleryError(f"{path} is damaged (frame counts differ); build the gallery again")
+        return pack
+
+
+def _summed(steps: npt.NDArray[Any]) -> npt.NDArray[np.int16]:
+    return np.cumsum(steps, axis=0, dtype=np.int16)

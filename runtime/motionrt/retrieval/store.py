@@ -1,0 +1,156 @@
+"""A gallery's folder: ``gallery.json`` and the arrays that it names.
+
+The arrays' file names carry their checksum, and ``gallery.json`` is replaced last, in one step. So whoever
+opens the folder, at any moment and after any crash, sees one whole gallery: the old one or the new one.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import re
+from collections.abc import Callable
+from pathlib import Path
+from typing import IO, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from motionrt.errors import GalleryError, GalleryNotFoundError
+
+GALLERY_FILE = "gallery.json"
+DEFAULT_FOLDER = ".motionrt-gallery"
+FORMAT, VERSION = "motionrt-gallery", 1
+_ARRAY_FILE = re.compile(r"(embeddings|windows|motions)-[0-9a-f]{16}\.np[yz]")
+_TEMPORARY = ".writing-"
+
+Writer = Callable[[IO[bytes]], None]
+
+
+def locate(path: Path) -> Path:
+    """The gallery folder meant by ``path``: itself, or the one inside an indexed folder.
+
+    Raises:
+        GalleryNotFoundError: there is none; the message gives the command that builds it.
+    """
+    for folder in (path, path / DEFAULT_FOLDER):
+        if (folder / GALLERY_FILE).is_file():
+            return folder
+    raise GalleryNotFoundError(f'no gallery in {path}; build one with: motionrt gallery build "{path}"')
+
+
+def read_head(folder: Path) -> dict[str, Any]:
+    """The content of ``gallery.json``; GalleryError when it is damaged or of another version."""
+    path = folder / GALLERY_FILE
+    try:
+        head = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise damaged(path, str(error)) from error
+    if not isinstance(head, dict) or head.get("format") != FORMAT:
+        raise damaged(path, "not a gallery of motionrt")
+    if head.get("version") != VERSION:
+        raise GalleryError(
+            f"{path} has version {head.get('version')}, this motionrt reads version {VERSION}; build it again"
+        )
+    return head
+
+
+def read_array(folder: Path, name: str) -> npt.NDArray[Any]:
+    """One array, memory-mapped; FileNotFoundError when it is not there, GalleryError when it is damaged."""
+    try:
+        return np.asarray(np.load(folder / name, mmap_mode="r", allow_pickle=False))
+    except FileNotFoundError:
+        raise
+    except (OSError, ValueError, EOFError) as error:
+        raise damaged(folder / name, str(error)) from error
+
+
+def write(folder: Path, head: dict[str, Any], arrays: dict[str, tuple[str, Writer]]) -> None:
+    """Write arrays (role -> suffix and writer), then ``gallery.json`` with their names, then drop the stale.
+
+    The caller holds the folder's lock.
+
+    Raises:
+        GalleryError: the disk refuses.
+    """
+    try:
+        files = {role: _write_array(folder, role, *how) for role, how in arrays.items()}
+        head = {"format": FORMAT, "version": VERSION, "created_by": _created_by(), **head, "files": files}
+        text = json.dumps(head, indent=1) + "\n"
+        _replace(folder, GALLERY_FILE, lambda file: _discard(file.write(text.encode("ascii"))))
+    except OSError as error:
+        raise GalleryError(f"cannot write the gallery to {folder}: {error.strerror}") from error
+    _remove_stale(folder, set(files.values()))
+
+
+def digest(path: Path) -> str:
+    """The file's sha256."""
+    checksum = hashlib.sha256()
+    with path.open("rb") as file:
+        while block := file.read(1 << 20):
+            checksum.update(block)
+    return checksum.hexdigest()
+
+
+def verify(folder: Path, files: dict[str, str]) -> None:
+    """Check every array against the checksum in its name; GalleryError names the first that differs."""
+    for name in files.values():
+        try:
+            found = digest(folder / name)
+        except OSError as error:
+            raise damaged(folder / name, str(error)) from error
+        if f"-{found[:16]}." not in name:
+            raise damaged(folder / name, "its checksum is wrong")
+
+
+def damaged(path: Path, reason: str) -> GalleryError:
+    """The error for a gallery file that cannot be used."""
+    return GalleryError(f"{path} is damaged ({reason}); build the gallery again: motionrt gallery build")
+
+
+def _write_array(folder: Path, role: str, suffix: str, writer: Writer) -> str:
+    temporary = _write_temporary(folder, role, writer)
+    checksum = digest(temporary)
+    path = folder / f"{role}-{checksum[:16]}{suffix}"
+    if path.is_file() and digest(path) == checksum:  # a reader may have it mapped: then it cannot be replaced
+        temporary.unlink()
+    else:
+        temporary.replace(path)
+    return path.name
+
+
+def _replace(folder: Path, name: str, writer: Writer) -> None:
+    _write_temporary(folder, name, writer).replace(folder / name)
+
+
+def _write_temporary(folder: Path, name: str, writer: Writer) -> Path:
+    path = folder / f"{_TEMPORARY}{name}"
+    with path.open("wb") as file:
+        writer(file)
+        file.flush()
+        os.fsync(file.fileno())
+    return path
+
+
+def _remove_stale(folder: Path, keep: set[str]) -> None:
+    for path in folder.iterdir():
+        stale = _ARRAY_FILE.fullmatch(path.name) and path.name not in keep
+        if stale or path.name.startswith(_TEMPORARY):
+            try:
+                path.unlink()
+            except OSError:  # mapped by a reader, on Windows: the next writer removes it
+                continue
+
+
+def _created_by() -> str:
+    from importlib import metadata  # slow to import, and only writers need it
+
+    try:
+        return f"motionrt {metadata.version('motionrt')}"
+    except metadata.PackageNotFoundError:
+        return "motionrt"
+
+
+def _discard(_: object) -> None:
+    return None

@@ -1,0 +1,223 @@
+"""``Runtime``: one object, its verbs are the product."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import cached_property, partial
+from pathlib import Path
+from typing import TYPE_CHECKING, overload
+
+import numpy as np
+
+from motionrt.errors import GalleryNotFoundError, InvalidInputError
+from motionrt.formats import load_motion
+from motionrt.models import TextMotionModel
+from motionrt.motion import Motion
+from motionrt.motion.skeleton import FloatArray
+from motionrt.retrieval import (
+    GALLERY_FILE,
+    BuildReport,
+    Description,
+    EmbeddedCaptions,
+    Gallery,
+    Hit,
+    Moments,
+    Progress,
+    build_gallery,
+    checked_captions,
+    describe,
+    embed_whole,
+    find_moments,
+    locate,
+    motion_features,
+    read_captions,
+    update_gallery,
+)
+
+if TYPE_CHECKING:
+    from onnxruntime import SessionOptions
+
+MotionLike = Motion | str | Path
+GalleryLike = Gallery | str | Path
+_ASSETS = Path(__file__).parent / "_assets"
+STARTER_GALLERY = _ASSETS / "starter"
+DEFAULT_CAPTIONS = _ASSETS / "captions.txt"
+EMBEDDED_CAPTIONS = _ASSETS / "captions.npz"  # the same, embedded by the shipped models
+
+
+class Runtime:
+    """Search, describe and embed motion; every model opens when it is first needed.
+
+    Args:
+        models: the manifest or the folder of the models, by default those that came with motionrt.
+        threads: threads of every model, by default at most 2 of those that the process may use.
+        session_options: options for every onnxruntime session, instead of ``threads``.
+        variant: which files of the models, as in ``fp32``, by default those that the manifest prefers.
+    """
+
+    def __init__(
+        self,
+        models: str | Path | None = None,
+        *,
+        threads: int | None = None,
+        session_options: SessionOptions | None = None,
+        variant: str | None = None,
+    ) -> None:
+        self._models = models
+        self._variant = variant
+        self._threads = threads
+        self._session_options = session_options
+        self._galleries: dict[Path, tuple[int, Gallery]] = {}
+        self._captions: dict[tuple[str, ...], EmbeddedCaptions] = {}
+
+    @cached_property
+    def model(self) -> TextMotionModel:
+        """The text and motion encoders."""
+        return TextMotionModel(
+            self._models,
+            variant=self._variant,
+            threads=self._threads,
+            session_options=self._session_options,
+        )
+
+    @overload  # a str is a sequence of str, too, so the two overlap
+    def retrieve(  # type: ignore[overload-overlap]
+        self, text: str, k: int = ..., gallery: GalleryLike | None = ..., *, per_clip: bool = ...
+    ) -> list[Hit]: ...
+
+    @overload
+    def retrieve(
+        self, text: Sequence[str], k: int = ..., gallery: GalleryLike | None = ..., *, per_clip: bool = ...
+    ) -> list[list[Hit]]: ...
+
+    def retrieve(
+        self,
+        text: str | Sequence[str],
+        k: int = 10,
+        gallery: GalleryLike | None = None,
+        *,
+        per_clip: bool = True,
+    ) -> list[Hit] | list[list[Hit]]:
+        """The motions of a gallery that fit a text best.
+
+        Args:
+            text: a sentence, or a list of them, which gives a list of answers.
+            k: how many hits, at least 1; a smaller gallery gives all it has.
+            gallery: a gallery or its folder; by default the starter gallery that came with motionrt.
+            per_clip: only the best span of every clip; otherwise every 10 s window is a hit of its own.
+
+        Raises:
+            InvalidInputError: an empty text, or a bad ``k``.
+            GalleryNotFoundError, GalleryError: no gallery there, damaged, or made by another model.
+        """
+        opened = self.gallery(gallery)
+        opened.check_model(self.model.fingerprint, self.model.name)
+        hits = [opened.search(query, k, per_clip=per_clip) for query in self.model.embed_text(_texts(text))]
+        return hits[0] if isinstance(text, str) else hits
+
+    def gallery(self, gallery: GalleryLike | None = None) -> Gallery:
+        """Open a gallery by its folder or the folder that was indexed; ``None`` is the starter gallery.
+
+        An opened gallery is kept until the one on disk is replaced.
+        """
+        if isinstance(gallery, Gallery):
+            return gallery
+        folder = _starter() if gallery is None else locate(Path(gallery))
+        changed = (folder / GALLERY_FILE).stat().st_mtime_ns
+        if self._galleries.get(folder, (None,))[0] != changed:
+            self._galleries[folder] = changed, Gallery.open(folder)
+        return self._galleries[folder][1]
+
+    def describe(
+        self, motion: MotionLike, k: int = 5, captions: Sequence[str] | None = None
+    ) -> list[Description]:
+        """The captions that fit a motion best, out of a list.
+
+        Args:
+            motion: a motion or its file.
+            k: how many, at least 1.
+            captions: texts to choose from, by default a list of everyday actions that comes with motionrt. A
+                list is embedded once and remembered.
+        """
+        loaded = _loaded(motion)
+        return describe(motion_features(loaded), loaded.duration, self.captions(captions), self.model, k)
+
+    def captions(self, texts: Sequence[str] | None = None) -> EmbeddedCaptions:
+        """A list of captions, by default the one that comes with motionrt, with embeddings; remembered."""
+        chosen = checked_captions(texts if texts is not None else read_captions(DEFAULT_CAPTIONS))
+        if chosen not in self._captions:
+            self._captions[chosen] = self._embedded(chosen)
+        return self._captions[chosen]
+
+    def _embedded(self, texts: tuple[str, ...]) -> EmbeddedCaptions:
+        ready = EmbeddedCaptions.read(EMBEDDED_CAPTIONS, self.model.fingerprint)
+        if ready is not None and ready.texts == texts:
+            return ready
+        return EmbeddedCaptions(texts, self.model.embed_text(texts), self.model.fingerprint)
+
+    def moments(self, text: str, motion: MotionLike, k: int = 5) -> Moments:
+        """Where in a motion a text happens: the best spans of 0.5 to 3 s, and the similarity over time."""
+        query = self.embed_text(text)
+        return find_moments(query, motion_features(_loaded(motion)), self.model, k)
+
+    def embed_text(self, text: str | Sequence[str]) -> FloatArray:
+        """Unit vector ``(256,)`` of a text, or ``(N, 256)`` of a list."""
+        embeddings = self.model.embed_text(_texts(text))
+        return embeddings[0] if isinstance(text, str) else embeddings
+
+    def embed_motion(self, motion: MotionLike | Sequence[MotionLike]) -> FloatArray:
+        """Unit vector ``(256,)`` of a motion or motion file, or ``(N, 256)`` of a list.
+
+        A motion longer than 10 s is the mean over windows of 10 s, every 5 s, normalised.
+        """
+        if isinstance(motion, Motion | str | Path):
+            return embed_whole(self.model, motion_features(_loaded(motion)))
+        if not motion:
+            raise InvalidInputError("embed_motion needs at least one motion")
+        return np.stack([self.embed_motion(one) for one in motion])
+
+    def build_gallery(
+        self,
+        folder: str | Path,
+        out: str | Path | None = None,
+        *,
+        jobs: int = 1,
+        mapping: Mapping[str, str] | None = None,
+        progress: Progress | None = None,
+    ) -> BuildReport:
+        """Index a folder of motion files; see :func:`motionrt.retrieval.build_gallery`.
+
+        With ``jobs`` above 1 call it under ``if __name__ == "__main__":``, as for any Python that starts
+        processes.
+        """
+        return build_gallery(folder, self._opener(), out=out, jobs=jobs, mapping=mapping, progress=progress)
+
+    def update_gallery(
+        self, gallery: str | Path, *, jobs: int = 1, progress: Progress | None = None
+    ) -> BuildReport:
+        """Index what is new or changed, drop what is gone; see :func:`motionrt.retrieval.update_gallery`."""
+        return update_gallery(gallery, self._opener(), jobs=jobs, progress=progress)
+
+    def _opener(self) -> partial[TextMotionModel]:
+        """Opens the model with one thread: the same gallery, byte for byte, whatever builds it."""
+        return partial(TextMotionModel, self._models, variant=self._variant, threads=1)
+
+
+def _starter() -> Path:
+    if not (STARTER_GALLERY / GALLERY_FILE).is_file():
+        raise GalleryNotFoundError(
+            f"the starter gallery is not installed ({STARTER_GALLERY}); "
+            "build one of your own with: motionrt gallery build FOLDER"
+        )
+    return STARTER_GALLERY
+
+
+def _texts(text: str | Sequence[str]) -> list[str]:
+    texts = [text] if isinstance(text, str) else list(text)
+    if not texts:
+        raise InvalidInputError("give at least one text")
+    return texts
+
+
+def _loaded(motion: MotionLike) -> Motion:
+    return motion if isinstance(motion, Motion) else load_motion(motion)

@@ -1,0 +1,68 @@
+"""``motionrt retrieve``: the table, the JSON that programs rely on, and the saved hits."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from motionrt import load_motion
+from motionrt.cli import main
+
+
+def test_json_is_a_list_of_hits_with_the_promised_keys(gallery: Path, run_json: Callable[..., Any]) -> None:
+    hits = run_json("retrieve", "a person walks", "--gallery", gallery, "-k", 2)
+    assert [hit["rank"] for hit in hits] == [1, 2]
+    for hit in hits:
+        assert list(hit) == ["rank", "score", "id", "path", "start", "end", "text"]
+        assert Path(hit["path"]) == gallery / hit["id"]
+        assert 0 <= hit["start"] < hit["end"]
+        assert -1 <= hit["score"] <= 1
+    assert hits[0]["score"] >= hits[1]["score"]
+
+
+def test_the_table_has_a_line_for_every_hit(gallery: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["retrieve", "a person walks", "--gallery", str(gallery / ".motionrt-gallery")]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0].split() == ["rank", "score", "start", "end", "clip"]
+    assert sorted(line.split()[-1] for line in lines[1:]) == ["long.npz", "walk.bvh", "ä/kreis.bvh"]
+
+
+def test_windows_gives_every_span_of_a_long_clip(gallery: Path, run_json: Callable[..., Any]) -> None:
+    hits = run_json("retrieve", "walks", "--gallery", gallery, "--windows")
+    assert sorted((hit["start"], hit["end"]) for hit in hits if hit["id"] == "long.npz") == [(0, 10), (5, 15)]
+
+
+def test_saved_hits_are_bvh_files_of_the_found_spans(
+    gallery: Path, tmp_path: Path, run_json: Callable[..., Any]
+) -> None:
+    hits = run_json("retrieve", "walks", "--gallery", gallery, "--save", tmp_path / "new" / "hits")
+    saved = sorted((tmp_path / "new" / "hits").iterdir())
+    assert [path.name[:3] for path in saved] == ["001", "002", "003"]
+    assert {path.suffix for path in saved} == {".bvh"}
+    for path, hit in zip(saved, hits, strict=True):
+        assert load_motion(path, keep_first_frame=True).duration == pytest.approx(
+            hit["end"] - hit["start"], abs=0.06
+        )
+
+
+def test_no_gallery_there_names_the_command_to_build_one(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["retrieve", "walks", "--gallery", str(tmp_path)]) == 1
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert f'motionrt gallery build "{tmp_path}"' in err
+
+
+def test_k_of_nothing_is_an_error(gallery: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["retrieve", "walks", "--gallery", str(gallery), "-k", "0"]) == 1
+    assert "k must be at least 1" in capsys.readouterr().err
+
+
+def test_the_folder_for_hits_may_not_be_a_file(gallery: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = gallery / "walk.bvh"
+    assert main(["retrieve", "walks", "--gallery", str(gallery), "--save", str(path)]) == 1
+    assert "cannot make the folder" in capsys.readouterr().err
