@@ -1,7 +1,7 @@
-"""The packed corpus: features of every clip, and of its mirror image, computed once into one ``.npz``.
+"""The packed corpus: features of every clip, computed once into one ``.npz``.
 
-Arrays: ``features`` and ``features_mirror`` ``(frames of all clips, 263)`` float16, ``start`` and ``length`` ``(clips,)``
-int64 into them, and ``meta``, a JSON list with ``id``, ``split``, ``texts`` and ``texts_mirror`` for each clip.
+Arrays: ``features`` ``(frames of all clips, 263)`` float16, ``start`` and ``length`` ``(clips,)`` int64 into them, and
+``meta``, a JSON list with ``id``, ``split``, ``texts`` and ``texts_mirror`` (what is said of the mirror image) of each clip.
 
     python -m motionrt_training.corpora.pack cmu ../shared/data/mocap/cmu -o runs/cmu.npz
     python -m motionrt_training.corpora.pack humanml3d HumanML3D --amass AMASS -o runs/humanml3d.npz
@@ -18,9 +18,7 @@ import numpy as np
 from tqdm import tqdm
 
 from motionrt.errors import InvalidInputError
-from motionrt.motion import Motion
 from motionrt.motion.features import guo263
-from motionrt.motion.skeleton import FloatArray
 from motionrt_training.corpora.babel import read_babel
 from motionrt_training.corpora.cmu import read_cmu
 from motionrt_training.corpora.corpus import Clip, MotionCorpus
@@ -48,28 +46,19 @@ def read_corpus(name: str, folder: str, amass: str | None = None) -> MotionCorpu
 
 def pack(corpus: MotionCorpus, path: str | Path) -> Path:
     """Write the ``guo263`` features and texts of ``corpus`` to ``path``; returns it."""
-    straight: list[FloatArray] = []
-    mirrored: list[FloatArray] = []
-    for _, motion in tqdm(corpus.motions(), total=len(corpus), desc=f"packing {corpus.name}", unit="clip"):
-        resampled = motion.resample(guo263.FPS)
-        straight.append(_encode(resampled))
-        mirrored.append(_encode(resampled.mirror()))
-    lengths = np.array([len(features) for features in straight])
+    clips = tqdm(corpus.motions(), total=len(corpus), desc=f"packing {corpus.name}", unit="clip")
+    features = [guo263.encode(motion.resample(guo263.FPS)).astype(np.float16) for _, motion in clips]
+    lengths = np.array([len(rows) for rows in features])
     target = Path(path)
     target.parent.mkdir(parents=True, exist_ok=True)
     np.savez_compressed(
         target,
-        features=np.concatenate(straight),
-        features_mirror=np.concatenate(mirrored),
+        features=np.concatenate(features),
         start=np.cumsum(lengths) - lengths,
         length=lengths,
         meta=json.dumps([_meta(clip) for clip in corpus.clips], ensure_ascii=False),
     )
     return target
-
-
-def _encode(motion: Motion) -> FloatArray:
-    return guo263.encode(motion).astype(np.float16)  # type: ignore[return-value]
 
 
 def _meta(clip: Clip) -> dict[str, object]:

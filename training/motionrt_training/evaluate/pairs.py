@@ -1,0 +1,40 @@
+"""The captioned motions that are evaluated."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from motionrt.errors import InvalidInputError
+from motionrt.motion.skeleton import FloatArray
+from motionrt_training.packed import load_packed
+
+MAX_FRAMES = 200  # 10 s at 20 fps: the longest window that the encoders see
+
+
+@dataclass(frozen=True)
+class PairSet:
+    """Captioned motions of one split: ``motions`` raw ``guo263`` at 20 fps, ``texts[i]`` the captions of motion i."""
+
+    ids: tuple[str, ...]
+    motions: tuple[FloatArray, ...]
+    texts: tuple[tuple[str, ...], ...]
+
+    def __len__(self) -> int:
+        return len(self.ids)
+
+    def captions(self, style: int) -> list[str]:
+        """One caption for each motion: the one in place ``style`` (cyclic, where a motion has fewer)."""
+        return [texts[style % len(texts)] for texts in self.texts]
+
+
+def read_pairs(path: str | Path, split: str) -> PairSet:
+    """The pairs of ``split`` in a packed corpus; InvalidInputError when it has none."""
+    corpus = load_packed(path)
+    clips = corpus.split(split)
+    if not clips:
+        raise InvalidInputError(f"{path} has no clips in split '{split}'")
+    motions = tuple(corpus.motion(clip)[:MAX_FRAMES].astype(np.float32) for clip in clips)
+    return PairSet(tuple(clip.id for clip in clips), motions, tuple(clip.texts for clip in clips))

@@ -1,0 +1,1 @@
+"""Networks of motionrt: one small file each."""

@@ -1,0 +1,70 @@
+"""TMR: text and motion encoders into one space, and a motion decoder out of it (Petrovich et al. 2023)."""
+
+from __future__ import annotations
+
+import torch
+from torch import Tensor, nn
+
+from motionrt_training.networks.actor import ActorDecoder, ActorEncoder, Distribution
+
+
+class TMR(nn.Module):
+    """The three networks with the statistics of the features, so that callers speak raw guo263 at 20 fps."""
+
+    motion_mean: Tensor  # (motion_dim,)
+    motion_std: Tensor  # (motion_dim,)
+
+    def __init__(
+        self,
+        text_dim: int = 384,
+        motion_dim: int = 263,
+        d: int = 256,
+        layers: int = 6,
+        heads: int = 4,
+        ff: int = 1024,
+        dropout: float = 0.1,
+        patch: int = 1,
+    ) -> None:
+        super().__init__()
+        self.config = {
+            "text_dim": text_dim,
+            "motion_dim": motion_dim,
+            "d": d,
+            "layers": layers,
+            "heads": heads,
+            "ff": ff,
+            "dropout": dropout,
+            "patch": patch,
+        }
+        self.text_encoder = ActorEncoder(text_dim, d, layers, heads, ff, dropout)
+        self.motion_encoder = ActorEncoder(motion_dim, d, layers, heads, ff, dropout, patch)
+        self.motion_decoder = ActorDecoder(motion_dim, d, layers, heads, ff, dropout, patch)
+        self.register_buffer("motion_mean", torch.zeros(motion_dim))
+        self.register_buffer("motion_std", torch.ones(motion_dim))
+
+    def forward(
+        self, tokens: Tensor, token_mask: Tensor, motion: Tensor, mask: Tensor
+    ) -> tuple[Distribution, Distribution]:
+        """Normalised motion (B, F, 263) and token features (B, T, 384) with bool masks -> text, motion."""
+        return self.text_encoder(tokens, token_mask), self.motion_encoder(motion, mask)
+
+    def normalise(self, motion: Tensor) -> Tensor:
+        """Raw features -> zero mean, unit variance over the training split."""
+        return (motion - self.motion_mean) / self.motion_std
+
+    def denormalise(self, motion: Tensor) -> Tensor:
+        """The inverse of `normalise`."""
+        return motion * self.motion_std + self.motion_mean
+
+    def encode_text(self, tokens: Tensor, mask: Tensor) -> Distribution:
+        """Token features (B, T, 384), mask (B, T) -> Distribution; the direction of `mu` is the embedding."""
+        return self.text_encoder(tokens, mask.to(torch.bool))
+
+    def encode_motion(self, motion: Tensor, mask: Tensor) -> Distribution:
+        """Raw guo263 (B, F, 263) at 20 fps, mask (B, F) -> Distribution."""
+        return self.motion_encoder(self.normalise(motion), mask.to(torch.bool))
+
+    def decode(self, latent: Tensor, mask: Tensor) -> Tensor:
+        """Latent (B, d), mask (B, F) -> raw guo263 (B, F, 263), zeros where the mask is False."""
+        mask = mask.to(torch.bool)
+        return self.denormalise(self.motion_decoder(latent, mask)) * mask[..., None]

@@ -1,0 +1,95 @@
+"""Packed corpora as training reads them: features of every clip and of its mirror image, with texts."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from motionrt.motion.features import guo263
+
+
+@dataclass(frozen=True)
+class PackedClip:
+    """One clip: frames [start, start + length) of the packed features, and what is said of it."""
+
+    id: str
+    split: str
+    start: int
+    length: int
+    texts: tuple[str, ...]
+    texts_mirror: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class PackedCorpus:
+    """guo263 at 20 fps, raw, float16: `features` (sum of lengths, 263); mirror images are made on the way out."""
+
+    features: NDArray[np.float16]
+    clips: tuple[PackedClip, ...]
+    mirror: Callable[[NDArray[np.float16]], NDArray[np.float16]] = guo263.mirror  # features of the mirror image
+
+    def split(self, name: str) -> list[PackedClip]:
+        """The clips of a split, in file order."""
+        return [clip for clip in self.clips if clip.split == name]
+
+    def motion(self, clip: PackedClip, *, mirror: bool = False) -> NDArray[np.float16]:
+        """(F, 263) of a clip or of its mirror image."""
+        frames = self.features[clip.start : clip.start + clip.length]
+        return self.mirror(frames) if mirror else frames
+
+    def texts(self) -> list[str]:
+        """Every text once, mirrored ones too, in order of appearance."""
+        spoken = (text for clip in self.clips for text in (*clip.texts, *clip.texts_mirror))
+        return list(dict.fromkeys(spoken))
+
+
+def load_packed(path: str | Path) -> PackedCorpus:
+    """Read the `.npz` that the corpora write; ValueError when an array is missing or does not fit."""
+    with np.load(path, allow_pickle=False) as file:
+        missing = {"features", "start", "length", "meta"} - set(file.files)
+        if missing:
+            raise ValueError(f"{path}: no array {', '.join(sorted(missing))}; pack the corpus again")
+        meta = json.loads(str(file["meta"]))
+        starts, lengths = file["start"].tolist(), file["length"].tolist()
+        features = file["features"]
+    if not len(meta) == len(starts) == len(lengths) or sum(lengths) != len(features):
+        raise ValueError(f"{path}: its arrays do not fit each other; pack the corpus again")
+    clips = [_clip(row, start, length) for row, start, length in zip(meta, starts, lengths, strict=True)]
+    return PackedCorpus(features, tuple(clips))
+
+
+def statistics(
+    corpus: PackedCorpus, *, equalise: bool = True
+) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """Mean and floored standard deviation (263,) of the training split, mirror images included.
+
+    `equalise`: one deviation per kind of feature (Guo et al. 2022), so that still joints are not blown up.
+    """
+    parts = [corpus.motion(clip, mirror=mirror) for clip in corpus.split("train") for mirror in (False, True)]
+    if not parts:
+        raise ValueError("the corpus has no clip in its train split")
+    frames = np.concatenate(parts).astype(np.float64)
+    std = frames.std(axis=0)
+    if equalise and frames.shape[1] == GUO263_GROUPS[-1].stop:
+        for group in GUO263_GROUPS:
+            std[group] = std[group].mean()
+    return frames.mean(axis=0).astype(np.float32), np.maximum(std, 1e-3).astype(np.float32)
+
+
+# yaw velocity, planar velocity, height, positions 21x3, rotations 21x6, velocities 22x3, contacts 4
+_EDGES = (0, 1, 3, 4, 67, 193, 259, 263)
+GUO263_GROUPS = tuple(slice(first, last) for first, last in pairwise(_EDGES))
+GUO263_RATES = np.r_[0:3, 193:259]  # features per frame: they scale with the speed of the motion
+
+
+def _clip(row: dict[str, object], start: int, length: int) -> PackedClip:
+    texts, mirror = row["texts"], row["texts_mirror"]
+    if not isinstance(texts, list) or not isinstance(mirror, list) or len(texts) != len(mirror) or not texts:
+        raise ValueError(f"clip {row['id']}: needs texts and as many texts_mirror")
+    return PackedClip(str(row["id"]), str(row["split"]), start, length, tuple(texts), tuple(mirror))

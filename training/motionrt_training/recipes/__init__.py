@@ -1,0 +1,1 @@
+"""One file per shipped model: data, network, losses, schedule."""
