@@ -8,7 +8,9 @@ from scipy.spatial.transform import Rotation
 from motionrt.motion import SMPL24, Motion
 
 
-def random_motion(frames: int, fps: float = 20.0, seed: int = 0, root: tuple[float, float, float] = (0, 0.9, 0)) -> Motion:
+def random_motion(
+    frames: int, fps: float = 20.0, seed: int = 0, root: tuple[float, float, float] = (0, 0.9, 0)
+) -> Motion:
     """Smooth but otherwise arbitrary rotations of all joints, walking a random line."""
     rng = np.random.default_rng(seed)
     vectors = rng.normal(0, 0.3, (1, 24, 3)) + np.cumsum(rng.normal(0, 0.04, (frames, 24, 3)), axis=0)

@@ -1,4 +1,4 @@
-"""Tiny networks on one thread: threads that wait for each other cost more than they bring, above all on a busy machine."""
+"""Tiny networks on one thread: threads that wait for each other cost more than they bring on a busy machine."""
 
 from __future__ import annotations
 

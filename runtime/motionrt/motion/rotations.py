@@ -73,7 +73,7 @@ def axis_angle_to_matrix(vectors: npt.ArrayLike) -> Array:
     safe = np.where(small, 1, angle)
     a = np.where(small, 1 - angle**2 / 6, np.sin(safe) / safe)
     b = np.where(small, 0.5 - angle**2 / 24, (1 - np.cos(safe)) / safe**2)
-    return (np.eye(3, dtype=v.dtype) + a * skew + b * (skew @ skew)).astype(v.dtype)
+    return np.asarray(np.eye(3, dtype=v.dtype) + a * skew + b * (skew @ skew), dtype=v.dtype)
 
 
 def matrix_to_axis_angle(matrices: Array) -> Array:
@@ -149,8 +149,8 @@ def rotation_between(source: npt.ArrayLike, target: npt.ArrayLike) -> Array:
 
     For opposite directions it is half a turn about some axis orthogonal to both.
     """
-    a, b = normalise(np.asarray(source, dtype=np.float64)), normalise(np.asarray(target, dtype=np.float64))
-    a, b = np.broadcast_arrays(a, b)
+    pair = normalise(np.asarray(source, dtype=np.float64)), normalise(np.asarray(target, dtype=np.float64))
+    a, b = np.broadcast_arrays(*pair)
     half = a + b
     opposite = np.linalg.norm(half, axis=-1, keepdims=True) < 1e-6
     helper = np.where(np.abs(a[..., :1]) < 0.9, [1.0, 0.0, 0.0], [0.0, 1.0, 0.0])
@@ -188,4 +188,4 @@ def slerp(start: Array, end: Array, weight: npt.ArrayLike) -> Array:
 def yaw_angle(directions: npt.ArrayLike) -> Array:
     """Heading of directions ``[..., 3]``: the angle in the ground plane from +Z towards +X, radians."""
     d = np.asarray(directions)
-    return np.arctan2(d[..., 0], d[..., 2])
+    return np.asarray(np.arctan2(d[..., 0], d[..., 2]))

@@ -31,7 +31,8 @@ _MIRROR = np.diag([-1.0, 1.0, 1.0]).astype(np.float32)
 def facing(motion: Motion) -> Array:
     """Unit heading of the body in the ground plane, ``(F, 3)``: across hips and shoulders, crossed with up."""
     positions, index = motion.positions(), motion.skeleton.index
-    across = sum(positions[:, index(left)] - positions[:, index(right)] for left, right in _ACROSS_JOINTS)
+    pairs = [(index(left), index(right)) for left, right in _ACROSS_JOINTS]
+    across = np.sum([positions[:, left] - positions[:, right] for left, right in pairs], axis=0)
     forward = np.stack([-across[:, 2], np.zeros(motion.frames), across[:, 0]], axis=-1)  # left x up
     length = np.linalg.norm(forward, axis=-1, keepdims=True)
     return np.where(length < 1e-8, [0, 0, 1], forward / np.maximum(length, 1e-8)).astype(np.float32)
@@ -57,14 +58,16 @@ def resample(motion: Motion, fps: float) -> Motion:
     rotations = motion.rotations[before]
     if weight.max(initial=0) > 1e-6:  # between frames: spherical interpolation; otherwise frames are just picked
         quaternions = matrix_to_quaternion(motion.rotations)
-        rotations = quaternion_to_matrix(slerp(quaternions[before], quaternions[after], weight[:, None]))
+        between = slerp(quaternions[before], quaternions[after], weight[:, None])
+        rotations = quaternion_to_matrix(between).astype(np.float32)
     return replace(motion, rotations=rotations, root=root, fps=fps)
 
 
 def mirror(motion: Motion) -> Motion:
     """Reflect about x = 0: ``R' = M R M`` of the opposite joint, with ``M = diag(-1, 1, 1)``."""
     partners = list(motion.skeleton.mirrored_joints)
-    return replace(motion, rotations=_MIRROR @ motion.rotations[:, partners] @ _MIRROR, root=motion.root @ _MIRROR)
+    rotations = np.asarray(_MIRROR @ motion.rotations[:, partners] @ _MIRROR, dtype=np.float32)
+    return replace(motion, rotations=rotations, root=motion.root @ _MIRROR)
 
 
 def turned(motion: Motion, yaw: float) -> Motion:

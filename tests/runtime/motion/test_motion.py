@@ -14,7 +14,8 @@ from motionrt.motion.transforms import facing, floor_height, heading, moved, tur
 
 def test_rest_pose_is_a_t_pose_facing_plus_z_with_the_left_on_plus_x() -> None:
     rest, index = SMPL24.rest_positions, SMPL24.index
-    assert rest[index("left_hand"), 0] > 0.7 > 0 > rest[index("right_hand"), 0]
+    assert rest[index("left_hand"), 0] > 0.7
+    assert rest[index("right_hand"), 0] < -0.7
     assert rest[index("left_foot"), 2] > rest[index("left_ankle"), 2]
     np.testing.assert_allclose(rest[index("left_wrist"), 1], rest[index("left_shoulder"), 1], atol=1e-6)
     mirrored = rest[list(SMPL24.mirrored_joints)] * [-1, 1, 1]
@@ -46,7 +47,7 @@ def test_resampling_slerps_rotations_and_interpolates_the_root_linearly() -> Non
     np.testing.assert_allclose(up.root[:, 1], np.interp(times, key_times, motion.root[:, 1]), atol=1e-5)
 
 
-@pytest.mark.parametrize(("frames", "fps", "expected"), [(1, 60, 1), (2, 60, 1), (4, 60, 2), (121, 120, 21), (3, 10, 5)])
+@pytest.mark.parametrize(("frames", "fps", "expected"), [(1, 60, 1), (2, 60, 1), (4, 60, 2), (121, 120, 21)])
 def test_resampling_never_invents_time_beyond_the_last_frame(frames: int, fps: float, expected: int) -> None:
     assert random_motion(frames, fps=fps).resample(20).frames == expected
 

@@ -25,7 +25,8 @@ def random_rotations(count: int = 200, seed: int = 0) -> Rotation:
 @pytest.mark.parametrize("order", ORDERS)
 def test_euler_angles_compose_in_channel_order_like_scipy_intrinsic(order: str) -> None:
     angles = np.random.default_rng(1).uniform(-3, 3, (100, 3))
-    np.testing.assert_allclose(r.euler_to_matrix(angles, order), Rotation.from_euler(order, angles).as_matrix(), atol=1e-12)
+    expected = Rotation.from_euler(order, angles).as_matrix()
+    np.testing.assert_allclose(r.euler_to_matrix(angles, order), expected, atol=1e-12)
 
 
 @pytest.mark.parametrize("order", ORDERS)
@@ -70,7 +71,8 @@ def test_half_turns_convert_to_quaternions_without_loss() -> None:
 def test_6d_of_any_independent_columns_is_a_rotation(sixd: np.ndarray) -> None:
     sixd = sixd + np.array([5, 0, 0, 0, 5, 0])  # keeps the two columns independent
     matrices = r.matrix_from_6d(sixd)
-    np.testing.assert_allclose(matrices @ np.swapaxes(matrices, -1, -2), np.broadcast_to(np.eye(3), (4, 3, 3)), atol=1e-9)
+    identity = np.broadcast_to(np.eye(3), (4, 3, 3))
+    np.testing.assert_allclose(matrices @ np.swapaxes(matrices, -1, -2), identity, atol=1e-9)
     np.testing.assert_allclose(np.linalg.det(matrices), 1, atol=1e-9)
     np.testing.assert_allclose(r.matrix_from_6d(r.matrix_to_6d(matrices)), matrices, atol=1e-9)
 
@@ -111,4 +113,5 @@ def test_slerp_matches_scipy_on_every_weight_and_takes_the_short_way() -> None:
 
 
 def test_yaw_is_measured_from_plus_z_towards_plus_x() -> None:
-    np.testing.assert_allclose(r.yaw_angle([[0, 0, 1], [1, 5, 0], [0, 0, -1], [-2, 0, 0]]), [0, np.pi / 2, np.pi, -np.pi / 2])
+    directions = [[0, 0, 1], [1, 5, 0], [0, 0, -1], [-2, 0, 0]]
+    np.testing.assert_allclose(r.yaw_angle(directions), [0, np.pi / 2, np.pi, -np.pi / 2])

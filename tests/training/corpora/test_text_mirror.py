@@ -33,7 +33,8 @@ def test_sides_and_senses_of_rotation_are_swapped_and_idioms_are_not(text: str, 
 def test_mirroring_every_caption_twice_gives_it_back() -> None:
     if not CAPTIONS.is_file():
         pytest.skip("../shared/data/mocap/cmu/captions.jsonl is not on this machine")
-    captions = [text for line in CAPTIONS.read_text(encoding="utf-8").splitlines() for text in json.loads(line)["captions"]]
+    rows = map(json.loads, CAPTIONS.read_text(encoding="utf-8").splitlines())
+    captions = [text for row in rows for text in row["captions"]]
     for text in captions:
-        plain = re.sub(r"\b(counter|anti)-?clockwise", "counterclockwise", text, flags=re.I)
+        plain = re.sub(r"\b(counter|anti)-?clockwise", "counterclockwise", text, flags=re.IGNORECASE)
         assert mirror_text(mirror_text(plain)).lower() == plain.lower()

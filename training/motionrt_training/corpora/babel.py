@@ -1,8 +1,8 @@
 """BABEL annotations over an AMASS folder: ``train.json``, ``val.json`` (and ``test.json`` where it is given).
 
 Every sequence has ``feat_p`` (its AMASS path), ``dur`` and labels: ``frame_ann`` with ``start_t`` and ``end_t`` per
-action, or ``seq_ann`` for the whole sequence. A frame label becomes a clip of its own stretch; labels that overlap it by
-more than half of its length are listed as simultaneous. Transitions are left out.
+action, or ``seq_ann`` for the whole sequence. A frame label becomes a clip of its own stretch; labels that overlap it
+by more than half of its length are listed as simultaneous. Transitions are left out.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """HumanML3D annotations over an AMASS folder.
 
-The folder holds ``index.csv`` (``source_path, start_frame, end_frame, new_name``; frames at 20 fps), ``texts/`` with one
+The folder holds ``index.csv`` (``source_path, start_frame, end_frame, new_name``; frames at 20 fps), ``texts/`` with a
 ``<name>.txt`` a motion (lines ``caption#tokens#start#end``; ``0#0`` means the whole motion) and ``train.txt``,
 ``val.txt``, ``test.txt``. A name with a leading ``M`` is a mirrored copy: this project mirrors by itself, so those rows
 are left out, and so are sequences that the AMASS copy at hand does not have.

@@ -52,6 +52,5 @@ def _unified_row(key: str, entry: dict[str, Any]) -> Row:
 
 def _original(folder: Path, keys: list[str]) -> list[Row]:
     paths = read_json(folder / "amass_paths.json")
-    return [
-        (key, paths[key], 0.0, None, tuple(read_json(folder / f"{key}_annotations.json"))) for key in keys if key in paths
-    ]
+    known = [key for key in keys if key in paths]
+    return [(key, paths[key], 0.0, None, tuple(read_json(folder / f"{key}_annotations.json"))) for key in known]

@@ -1,7 +1,7 @@
 """The packed corpus: features of every clip, computed once into one ``.npz``.
 
 Arrays: ``features`` ``(frames of all clips, 263)`` float16, ``start`` and ``length`` ``(clips,)`` int64 into them, and
-``meta``, a JSON list with ``id``, ``split``, ``texts`` and ``texts_mirror`` (what is said of the mirror image) of each clip.
+``meta``, a JSON list with ``id``, ``split``, ``texts`` and ``texts_mirror`` (what is said of the mirror image) of each.
 
     python -m motionrt_training.corpora.pack cmu ../shared/data/mocap/cmu -o runs/cmu.npz
     python -m motionrt_training.corpora.pack humanml3d HumanML3D --amass AMASS -o runs/humanml3d.npz

@@ -20,12 +20,13 @@ _SWAPS = {
     "righty": "lefty",
 }
 # "right away", "right angle" and "left the room" name no side.
-_NO_SIDE = re.compile(r"\bright (?:away|angles?)\b|\bleft the (?:room|house|area|scene|ground|floor)\b", re.I)
-_SIDED = re.compile(r"\b(?:counter-|anti-)?(?:clockwise|counterclockwise|anticlockwise|(?:left|right)(?:wards?|y)?)\b", re.I)
+_NO_SIDE = re.compile(r"\bright (?:away|angles?)\b|\bleft the (?:room|house|area|scene|ground|floor)\b", re.IGNORECASE)
+_SIDED = re.compile(
+    r"\b(?:counter-|anti-)?(?:clockwise|counterclockwise|anticlockwise|(?:left|right)(?:wards?|y)?)\b", re.IGNORECASE)
 
 
 def mirror_text(text: str) -> str:
-    """``text`` for the mirrored motion, keeping capitals: "Left hand, turning clockwise" -> "Right hand, turning ..."."""
+    """``text`` for the mirrored motion, keeping capitals: "Left hand, clockwise" -> "Right hand, counterclockwise"."""
     kept = [match.span() for match in _NO_SIDE.finditer(text)]
 
     def swap(match: re.Match[str]) -> str:

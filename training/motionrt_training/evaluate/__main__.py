@@ -1,7 +1,7 @@
 """Evaluate the exported models (and torch baselines) on the test split, and write ``docs/results.md``.
 
-    python -m motionrt_training.evaluate --corpus runs/cmu.npz --recordings ../shared/data/mocap/cmu \\
-        --baseline "TMR, short=runs/tmr_short/last.pt" --baseline "no contrastive=runs/temos/last.pt" -o docs/results.md
+python -m motionrt_training.evaluate --corpus runs/cmu.npz --recordings ../shared/data/mocap/cmu
+--variant fp32 --baseline "TMR=runs/tmr_short/best.pt" -o docs/results.md        (one line)
 """
 
 from __future__ import annotations

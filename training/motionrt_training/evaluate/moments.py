@@ -1,7 +1,7 @@
 """Moment retrieval on long recordings, against the annotated segments  [TMR 4.5].
 
-Every recording that its annotation cuts into two or more segments is searched with the captions of each segment; the best
-span that comes back is compared with the segment.
+Every recording that its annotation cuts into two or more segments is searched with the captions of each segment; the
+best span that comes back is compared with the segment.
 """
 
 from __future__ import annotations

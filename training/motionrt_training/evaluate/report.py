@@ -71,28 +71,32 @@ def _moment_table(lines: Sequence[MomentLine]) -> str:
 
 _INTRODUCTION = """# Results
 
-Written by `python -m motionrt_training.evaluate`; see there for the command. Percent, but for the median rank (MedR);
-t2m: the text is the query, m2t: the motion is.
+Written by `python -m motionrt_training.evaluate`; see there for the command. Percent, but for the median rank
+(MedR); t2m: the text is the query, m2t: the motion is.
 
 ## Retrieval on the test split
 
-{pairs} motion-text pairs of CMU trials that were never trained on. Every motion has four captions of different style (a
-headline, a sentence, a detailed description, search words); each style is evaluated as a set of its own and the results
-are averaged. Many test clips are nearly alike (a dozen straight walks, a dozen salsa clips), which caps R@1 of protocol (a).
-Chance in (a): R@1 1.3, R@10 12.7, MedR 40. Protocol (c) keeps the less alike half of the pairs, as there are fewer than 200."""
+{pairs} motion-text pairs of CMU trials that were never trained on. Every motion has four captions of different
+style (a headline, a sentence, a detailed description, search words); each style is evaluated as a set of its
+own and the results are averaged. Many test clips are nearly alike (a dozen straight walks, a dozen salsa
+clips), which caps R@1 of protocol (a). Chance in (a): R@1 1.3, R@10 12.7, MedR 40. Protocol (c) keeps the less
+alike half of the pairs, as there are fewer than 200."""
 
 _BASELINES = """## What the contrastive term and the filtering of negatives are worth
 
-The same data, network, seed, schedule and number of steps; only the loss differs. Torch modules, averaged weights with the
-best validation. "TEMOS-style" is training without the contrastive term, "no filtering" counts every other pair as a negative."""
+The same data, network, seed, schedule and number of steps; only the loss differs. Torch modules, averaged
+weights with the best validation. "TEMOS-style" is training without the contrastive term, "no filtering" counts
+every other pair as a negative."""
 
 _MOMENTS = """## Moments in long recordings
 
-Every test trial that its annotation cuts into two or more segments is searched with one sentence for each segment; accuracy
-is the share of queries whose best span overlaps the segment by at least the given temporal IoU. Segments last 6 s on average,
-so windows of at most 3 s (60 frames) cannot reach high overlap; the second setting adds longer windows. The rows with the text
-of another segment of the same trial show what the length of the windows alone brings."""
+Every test trial that its annotation cuts into two or more segments is searched with one sentence for each
+segment; accuracy is the share of queries whose best span overlaps the segment by at least the given temporal
+IoU. Segments last 6 s on average, so windows of at most 3 s (60 frames) cannot reach high overlap; the second
+setting adds longer windows. The rows with the text of another segment of the same trial show what the length of
+the windows alone brings."""
 
 _PAPER = """## For orientation: the paper
 
-Petrovich et al. 2023, tables 1 and 2. Other data (HumanML3D, KIT-ML), far larger test sets: not comparable in absolute terms."""
+Petrovich et al. 2023, tables 1 and 2. Other data (HumanML3D, KIT-ML), far larger test sets: not comparable in
+absolute terms."""

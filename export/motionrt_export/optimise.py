@@ -1,0 +1,68 @@
+"""How every graph is quantised: the choices; docs/performance.md has the measurements behind them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import onnx
+
+from motionrt_export.quantise import blocks, channels, int8_rows, product_names
+from motionrt_export.smooth import Feeds, smooth
+
+QUANTISED = "int8"
+"""Name of the shipped variant."""
+
+
+@dataclass(frozen=True)
+class Quantisation:
+    """Which weight products get which 8 bits; names are parts of operator names, such as `/feed/down/`.
+
+    Attributes:
+        in_blocks: 8-bit blocks, activations too: more accurate, rows never disturb each other, slower.
+        block: length of a block along the input axis.
+        smoothed: products whose activations are evened out first; needs calibration inputs.
+        alpha: how much of the outliers moves into the weights.
+    """
+
+    in_blocks: tuple[str, ...] = ()
+    block: int = 128
+    smoothed: tuple[str, ...] = ()
+    alpha: float = 0.6
+
+    def describe(self) -> str:
+        """For the manifest."""
+        parts = ["weights int8 per output channel, 7 bits, with dynamic uint8 activations"]
+        if self.in_blocks:
+            names = ", ".join(name.strip("/") for name in self.in_blocks)
+            parts.append(f"{names}: 8-bit blocks of {self.block}")
+        if self.smoothed:
+            parts.append(f"{', '.join(name.strip('/') for name in self.smoothed)}: outliers smoothed")
+        return "; ".join([*parts, "lookup tables: int8 rows; norms, softmax and attention products: float32"])
+
+
+SENTENCE_ENCODER = Quantisation(("/feed/down/",), smoothed=("/qkv/", "/feed/up/", "/feed/down/"))
+ENCODER = Quantisation(("/project/",))
+DECODER = Quantisation(("/project/", "/hear/"))
+
+CHOICES: dict[str, Quantisation] = {
+    "sentence_encoder": SENTENCE_ENCODER,
+    "tmr_text": ENCODER,
+    "tmr_motion": ENCODER,
+    "tmr_decoder": DECODER,
+}
+
+
+def quantise(
+    model: onnx.ModelProto, choice: Quantisation, calibration: Iterable[Feeds] = ()
+) -> onnx.ModelProto:
+    """A quantised copy of a float32 graph."""
+    copy = onnx.ModelProto.FromString(model.SerializeToString())
+    everything = product_names(copy)
+    if choice.smoothed:
+        smooth(copy, product_names(copy, *choice.smoothed), calibration, alpha=choice.alpha)
+    in_blocks = product_names(copy, *choice.in_blocks) if choice.in_blocks else []
+    blocks(copy, in_blocks, block=choice.block)
+    channels(copy, [name for name in everything if name not in in_blocks])
+    int8_rows(copy)
+    return copy

@@ -1,0 +1,58 @@
+"""The torch modules that an exported graph must equal, called with the graph's own inputs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from motionrt_training.networks.actor import Distribution
+from motionrt_training.networks.minilm import MiniLM, mean_pooled
+from motionrt_training.networks.tmr import TMR
+
+Arrays = Mapping[str, np.ndarray[Any, Any]]
+Reference = Callable[[Arrays], dict[str, np.ndarray[Any, Any]]]
+
+
+def sentence_reference(backbone: MiniLM) -> Reference:
+    """Token features and sentence embedding."""
+
+    def run(ids: Tensor, mask: Tensor) -> dict[str, Tensor]:
+        features = backbone(ids, mask)
+        return {"token_features": features, "sentence_embedding": mean_pooled(features, mask)}
+
+    return _reference(run, "input_ids", "attention_mask")
+
+
+def text_reference(model: TMR) -> Reference:
+    """Embedding and latent of token features."""
+    return _reference(
+        lambda x, mask: _encoded(model.encode_text(x, mask)), "token_features", "attention_mask"
+    )
+
+
+def motion_reference(model: TMR) -> Reference:
+    """Embedding and latent of raw features."""
+    return _reference(lambda x, mask: _encoded(model.encode_motion(x, mask)), "motion", "mask")
+
+
+def decoder_reference(model: TMR) -> Reference:
+    """Raw features of a latent."""
+    return _reference(lambda z, mask: {"motion": model.decode(z, mask)}, "latent", "mask")
+
+
+def _encoded(distribution: Distribution) -> dict[str, Tensor]:
+    mu = distribution.mu
+    return {"embedding": torch.nn.functional.normalize(mu, dim=-1), "latent": mu}
+
+
+def _reference(run: Callable[..., dict[str, Tensor]], *inputs: str) -> Reference:
+    @torch.no_grad()
+    def reference(feeds: Arrays) -> dict[str, np.ndarray[Any, Any]]:
+        outputs = run(*(torch.from_numpy(np.ascontiguousarray(feeds[name])) for name in inputs))
+        return {name: value.numpy() for name, value in outputs.items()}
+
+    return reference

@@ -1,0 +1,97 @@
+"""What every exported graph takes and gives: the one place for names, types, axes and units."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+OPSET = 18
+
+Axis = int | str  # a number, or the name of a dynamic axis
+
+
+@dataclass(frozen=True)
+class TensorSpec:
+    """One input or output: `shape` holds numbers and the names of dynamic axes."""
+
+    name: str
+    dtype: str  # float32, int64 or bool
+    shape: tuple[Axis, ...]
+    unit: str
+    meaning: str
+
+    def dynamic_axes(self) -> dict[int, str]:
+        """{position: name} of the axes that are not fixed."""
+        return {i: axis for i, axis in enumerate(self.shape) if isinstance(axis, str)}
+
+    def resolved(self, sizes: Mapping[str, int]) -> tuple[int, ...]:
+        """The shape with the dynamic axes filled in."""
+        return tuple(sizes[axis] if isinstance(axis, str) else axis for axis in self.shape)
+
+
+@dataclass(frozen=True)
+class GraphSpec:
+    """A graph's signature; `embeddings` names the outputs that are compared by cosine, row by row.
+
+    `length` names the axis that padding extends, `mask` the input that says what is valid.
+    """
+
+    name: str
+    inputs: tuple[TensorSpec, ...]
+    outputs: tuple[TensorSpec, ...]
+    length: str
+    mask: str
+    embeddings: tuple[str, ...] = field(default=())
+
+    def dynamic_axes(self) -> dict[str, dict[int, str]]:
+        """What `torch.onnx.export` wants."""
+        return {tensor.name: tensor.dynamic_axes() for tensor in (*self.inputs, *self.outputs)}
+
+
+_TOKEN_MASK = TensorSpec("attention_mask", "int64", ("batch", "tokens"), "1", "1 for a token, 0 for padding")
+_FRAME_MASK = TensorSpec("mask", "bool", ("batch", "frames"), "1", "true for a frame, false for padding")
+_TOKEN_FEATURES = TensorSpec(
+    "token_features", "float32", ("batch", "tokens", 384), "1", "contextual features of every token"
+)
+_MOTION = TensorSpec(
+    "motion",
+    "float32",
+    ("batch", "frames", 263),
+    "m, rad, m/frame",
+    "raw guo263 features at 20 fps, not normalised",
+)
+_EMBEDDING = TensorSpec(
+    "embedding", "float32", ("batch", 256), "1", "latent divided by its length: dot = cosine"
+)
+_LATENT = TensorSpec("latent", "float32", ("batch", 256), "1", "mean of the predicted distribution")
+
+SENTENCE_ENCODER = GraphSpec(
+    "sentence_encoder",
+    (
+        TensorSpec("input_ids", "int64", ("batch", "tokens"), "1", "WordPiece ids with [CLS] and [SEP]"),
+        _TOKEN_MASK,
+    ),
+    (
+        _TOKEN_FEATURES,
+        TensorSpec(
+            "sentence_embedding", "float32", ("batch", 384), "1", "masked mean of the features, unit length"
+        ),
+    ),
+    "tokens",
+    "attention_mask",
+    ("token_features", "sentence_embedding"),
+)
+TMR_TEXT = GraphSpec(
+    "tmr_text",
+    (_TOKEN_FEATURES, _TOKEN_MASK),
+    (_EMBEDDING, _LATENT),
+    "tokens",
+    "attention_mask",
+    ("embedding",),
+)
+TMR_MOTION = GraphSpec(
+    "tmr_motion", (_MOTION, _FRAME_MASK), (_EMBEDDING, _LATENT), "frames", "mask", ("embedding",)
+)
+TMR_DECODER = GraphSpec("tmr_decoder", (_LATENT, _FRAME_MASK), (_MOTION,), "frames", "mask", ())
+
+GRAPHS: tuple[GraphSpec, ...] = (SENTENCE_ENCODER, TMR_TEXT, TMR_MOTION, TMR_DECODER)

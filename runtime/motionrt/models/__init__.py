@@ -1,0 +1,27 @@
+"""ONNX models and text encoding: the only room that knows of ONNX. Nothing heavy is imported until used."""
+
+from __future__ import annotations
+
+from motionrt.models.checks import FileReport, verify
+from motionrt.models.locate import find_manifest
+from motionrt.models.manifest import Manifest, Model, TensorInfo, Tokenizer, Variant
+from motionrt.models.reading import load_manifest
+from motionrt.models.sessions import Sessions
+from motionrt.models.text import SentenceEncoder, SentenceFeatures
+from motionrt.models.tmr import TextMotionModel
+
+__all__ = [
+    "FileReport",
+    "Manifest",
+    "Model",
+    "SentenceEncoder",
+    "SentenceFeatures",
+    "Sessions",
+    "TensorInfo",
+    "TextMotionModel",
+    "Tokenizer",
+    "Variant",
+    "find_manifest",
+    "load_manifest",
+    "verify",
+]

@@ -1,0 +1,121 @@
+"""``models_manifest.yaml`` as frozen values: what ships, what it takes and gives, how it was made."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path, PurePosixPath
+
+from motionrt.errors import ModelNotFoundError
+from motionrt.models.fields import Scalar
+
+MANIFEST_NAME = "models_manifest.yaml"
+
+Figures = Mapping[str, Mapping[str, float]]  # output -> measure -> number
+
+
+@dataclass(frozen=True)
+class TensorInfo:
+    """An input or output; ``shape`` holds numbers and the names of dynamic axes."""
+
+    name: str
+    dtype: str
+    shape: tuple[int | str, ...]
+    unit: str
+    meaning: str
+
+
+@dataclass(frozen=True)
+class Variant:
+    """One file of a model.
+
+    Attributes:
+        file: relative to the manifest, with forward slashes.
+        shipped: whether the file comes with motionrt; others are built with ``python -m motionrt_export``.
+        quantisation: which layers hold how many bits, in words.
+        tolerance: what is promised of every output against the torch module: ``cosine_min``,
+            ``max_abs_error``.
+        parity: the same measures as found when the file was made.
+        producers: the versions of the programs that made the file.
+    """
+
+    name: str
+    file: str
+    sha256: str
+    bytes: int
+    opset: int
+    ir_version: int
+    shipped: bool
+    quantisation: str
+    tolerance: Figures
+    parity: Figures
+    producers: Mapping[str, Scalar]
+    benchmark: Mapping[str, Scalar] | None
+
+
+@dataclass(frozen=True)
+class Tokenizer:
+    """The tokenizer file of a text model; longer texts are cut at ``max_tokens``."""
+
+    file: str
+    sha256: str
+    bytes: int
+    max_tokens: int
+
+
+@dataclass(frozen=True)
+class Dataset:
+    """Data that a model was trained on."""
+
+    name: str
+    licence: str
+
+
+@dataclass(frozen=True)
+class Model:
+    """A model with its variants."""
+
+    name: str
+    description: str
+    licence: str
+    attribution: str
+    training_data: tuple[Dataset, ...]
+    recipe: Mapping[str, Scalar]
+    feature_statistics: str
+    inputs: tuple[TensorInfo, ...]
+    outputs: tuple[TensorInfo, ...]
+    tokenizer: Tokenizer | None
+    default_variant: str
+    variants: Mapping[str, Variant]
+    quality: Mapping[str, Scalar]
+
+    def variant(self, name: str | None = None) -> Variant:
+        """The variant called ``name``, or the default one; ModelNotFoundError lists those there are."""
+        name = self.default_variant if name is None else name
+        if name not in self.variants:
+            known = ", ".join(sorted(self.variants))
+            raise ModelNotFoundError(f"model '{self.name}' has no variant '{name}'; choose one of: {known}")
+        return self.variants[name]
+
+
+@dataclass(frozen=True)
+class Manifest:
+    """All models of one manifest; ``root`` is the folder that its file names are relative to."""
+
+    path: Path
+    models: Mapping[str, Model]
+
+    @property
+    def root(self) -> Path:
+        return self.path.parent
+
+    def model(self, name: str) -> Model:
+        """The model called ``name``; ModelNotFoundError lists those there are."""
+        if name not in self.models:
+            known = ", ".join(sorted(self.models))
+            raise ModelNotFoundError(f"{self.path} has no model '{name}'; it has: {known}")
+        return self.models[name]
+
+    def locate(self, file: str) -> Path:
+        """The path of a file that the manifest names."""
+        return self.root.joinpath(*PurePosixPath(file).parts)

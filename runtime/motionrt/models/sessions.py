@@ -1,0 +1,114 @@
+"""ONNX sessions: opened when first used, once each, from verified files, with few and quiet threads."""
+
+from __future__ import annotations
+
+import threading
+from collections import defaultdict
+from collections.abc import Mapping
+from contextlib import suppress
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from motionrt.models.checks import verified
+from motionrt.models.locate import find_manifest
+from motionrt.models.manifest import Manifest, Model
+from motionrt.models.reading import load_manifest
+from motionrt.models.threads import thread_count
+
+if TYPE_CHECKING:
+    from onnxruntime import InferenceSession, SessionOptions
+
+Arrays = Mapping[str, npt.NDArray[Any]]
+
+
+class Sessions:
+    """The models of one manifest, ready to run; may be used from several threads.
+
+    Args:
+        models: the manifest or its folder; None takes those that came with motionrt.
+        threads: threads of every session, by default at most 2 of those that the process may use.
+        session_options: options for every session, instead of ``threads``.
+
+    Raises:
+        ModelFileError, ManifestError: no manifest, or a bad one.
+        InvalidInputError: ``threads`` is not a whole number above 0.
+    """
+
+    def __init__(
+        self,
+        models: str | Path | None = None,
+        *,
+        threads: int | None = None,
+        session_options: SessionOptions | None = None,
+    ) -> None:
+        self.manifest: Manifest = load_manifest(find_manifest(models))
+        self.threads = thread_count(threads)
+        self._options = session_options
+        self._opened: dict[tuple[str, str], InferenceSession] = {}
+        self._locks: defaultdict[tuple[str, str], threading.Lock] = defaultdict(threading.Lock)
+        self._lock = threading.Lock()
+
+    def model(self, name: str) -> Model:
+        """What the manifest says of a model."""
+        return self.manifest.model(name)
+
+    def session(self, model: str, variant: str | None = None) -> InferenceSession:
+        """The session of a variant, opened at the first call.
+
+        Raises:
+            ModelNotFoundError: no such model or variant.
+            ModelFileError, ChecksumError: its file is missing, or not the one that the manifest means.
+        """
+        chosen = self.model(model).variant(variant)
+        key = model, chosen.name
+        with self._lock:
+            lock = self._locks[key]
+        with lock:
+            if key not in self._opened:
+                path = verified(self.manifest, chosen.file, chosen.sha256, shipped=chosen.shipped)
+                self._opened[key] = self._open(path)
+            return self._opened[key]
+
+    def prepare(self, *models: str, variant: str | None = None) -> None:
+        """Start to open models in the background; what goes wrong is raised when their session is asked for."""
+        import onnxruntime  # noqa: F401  # once, before the threads ask for it together
+
+        for model in models:
+            threading.Thread(target=self._try_to_open, args=(model, variant)).start()
+
+    def run(
+        self, model: str, outputs: list[str], feeds: Arrays, variant: str | None = None
+    ) -> list[npt.NDArray[np.float32]]:
+        """Run a model and give the named outputs, in that order."""
+        results: list[npt.NDArray[np.float32]] = self.session(model, variant).run(outputs, dict(feeds))
+        return results
+
+    def _try_to_open(self, model: str, variant: str | None) -> None:
+        with suppress(Exception):
+            self.session(model, variant)
+
+    def _open(self, path: Path) -> InferenceSession:
+        import onnxruntime
+
+        options = self._options if self._options is not None else quiet_options(self.threads)
+        return onnxruntime.InferenceSession(str(path), options, providers=["CPUExecutionProvider"])
+
+
+def quiet_options(threads: int) -> SessionOptions:
+    """Options for a guest in somebody else's process: no spinning, no warnings, one operator at a time.
+
+    Memory patterns are off: they are kept for every new length of input, and bring nothing here.
+    """
+    import onnxruntime
+
+    options = onnxruntime.SessionOptions()
+    options.intra_op_num_threads = threads
+    options.inter_op_num_threads = 1
+    options.enable_mem_pattern = False
+    options.log_severity_level = 3
+    options.add_session_config_entry("session.intra_op.allow_spinning", "0")
+    options.add_session_config_entry("session.inter_op.allow_spinning", "0")
+    return options

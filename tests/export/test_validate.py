@@ -1,0 +1,131 @@
+"""Validation passes what is right and ends at the first thing that is not, in its order."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+torch = pytest.importorskip("torch", reason="torch is not installed; the export extra brings it")
+onnx = pytest.importorskip("onnx", reason="onnx is not installed; the export extra brings it")
+
+from onnx import TensorProto, numpy_helper  # noqa: E402
+from tiny_nets import tiny_sources, tiny_tmr  # noqa: E402
+
+from motionrt_export.optimise import CHOICES, quantise  # noqa: E402
+from motionrt_export.publish import tolerance  # noqa: E402
+from motionrt_export.specs import TMR_TEXT  # noqa: E402
+from motionrt_export.trace import trace  # noqa: E402
+from motionrt_export.validate import Subject, ValidationError, validate  # noqa: E402
+
+SMALL = {"lengths": (1, 7, 20), "batches": (1, 3)}
+
+
+@pytest.fixture(scope="module")
+def sources(tmp_path_factory: pytest.TempPathFactory):
+    return tiny_sources(tmp_path_factory.mktemp("checkpoints"))
+
+
+def subject(sources, name: str, variant: str = "fp32") -> Subject:
+    source = sources.source(name)
+    model = trace(source.module, source.spec)
+    if variant == "int8":
+        feeds = sources.sentences.one_by_one() if name == "sentence_encoder" else ()
+        model = quantise(model, CHOICES[name], feeds)
+    content = model.SerializeToString(deterministic=True)
+    limits = tolerance(name, variant)
+    return Subject(source.spec, content, source.reference, source.examples, limits, source.scale, **SMALL)
+
+
+def altered(subject: Subject, change: Callable[[onnx.ModelProto], object]) -> Subject:
+    model = onnx.load_from_string(subject.content)
+    change(model)
+    return dataclasses.replace(subject, content=model.SerializeToString())
+
+
+@pytest.fixture(scope="module")
+def text(sources) -> Subject:
+    return subject(sources, "tmr_text")
+
+
+@pytest.mark.parametrize("name", list(CHOICES))
+@pytest.mark.parametrize("variant", ["fp32", "int8"])
+def test_an_honest_export_passes(sources, name: str, variant: str) -> None:
+    figures = validate(subject(sources, name, variant))
+    assert set(figures) == {tensor.name for tensor in sources.source(name).spec.outputs}
+
+
+def test_a_corrupted_weight_fails_with_the_figure(text: Subject) -> None:
+    def corrupt(model: onnx.ModelProto) -> None:
+        tensor = next(t for t in model.graph.initializer if tuple(t.dims) == (384, 256))
+        value = numpy_helper.to_array(tensor).copy()
+        value[5, 7] += 0.5
+        tensor.CopyFrom(numpy_helper.from_array(value, tensor.name))
+
+    with pytest.raises(
+        ValidationError, match=r"tmr_text, values against torch: embedding: max_abs_error is .* at most"
+    ):
+        validate(altered(text, corrupt))
+
+
+def test_a_renamed_output_fails_at_the_names(text: Subject) -> None:
+    def rename(model: onnx.ModelProto) -> None:
+        model.graph.output[1].name = "code"
+
+    with pytest.raises(ValidationError, match=r"names of outputs: found \['embedding', 'code'\]"):
+        validate(altered(text, rename))
+
+
+def test_another_type_fails_at_the_types(text: Subject) -> None:
+    def retype(model: onnx.ModelProto) -> None:
+        model.graph.input[1].type.tensor_type.elem_type = TensorProto.INT32
+
+    with pytest.raises(ValidationError, match="type of attention_mask"):
+        validate(altered(text, retype))
+
+
+def test_a_fixed_length_fails_at_the_axes(text: Subject) -> None:
+    def fix(model: onnx.ModelProto) -> None:
+        model.graph.input[0].type.tensor_type.shape.dim[1].dim_value = 9
+
+    with pytest.raises(ValidationError, match=r"axes of token_features: found \('batch', 9, 384\)"):
+        validate(altered(text, fix))
+
+
+class IgnoresItsMask(torch.nn.Module):
+    """Right on everything but padding."""
+
+    def forward(self, token_features: torch.Tensor, attention_mask: torch.Tensor):
+        latent = token_features.sum(dim=1)[:, :256] + 0 * attention_mask.sum()
+        return latent / latent.norm(dim=-1, keepdim=True), latent
+
+
+def test_a_graph_that_reads_padding_fails_though_its_values_are_right(text: Subject) -> None:
+    module = IgnoresItsMask()
+
+    def reference(feeds):
+        outputs = module(*(torch.from_numpy(feeds[t.name]) for t in TMR_TEXT.inputs))
+        return dict(zip(("embedding", "latent"), (x.numpy() for x in outputs), strict=True))
+
+    content = trace(module, TMR_TEXT).SerializeToString()
+    wrong = dataclasses.replace(text, content=content, reference=reference)
+    with pytest.raises(ValidationError, match="tmr_text, padding invariance: embedding"):
+        validate(wrong)
+
+
+def test_the_torch_modules_pass_through_untouched(text: Subject) -> None:
+    """The export wrappers must not change the network that they wrap."""
+    model = tiny_tmr()
+    before = {name: value.clone() for name, value in model.state_dict().items()}
+    from motionrt_export.graphs import DecoderGraph, MotionEncoderGraph, TextEncoderGraph
+
+    for graph in (TextEncoderGraph, MotionEncoderGraph, DecoderGraph):
+        graph(model)
+    assert all(torch.equal(value, before[name]) for name, value in model.state_dict().items())
+
+
+def test_figures_are_the_same_twice(text: Subject) -> None:
+    assert validate(text) == validate(text)
+    assert np.isfinite(validate(text)["embedding"]["cosine_min"])

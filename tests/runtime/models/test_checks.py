@@ -1,0 +1,94 @@
+"""A tampered, truncated, swapped or missing file is refused with its name, expected and found checksum."""
+
+from __future__ import annotations
+
+import hashlib
+from pathlib import Path
+
+import pytest
+from tiny_models import TINY, copy_tiny
+
+from motionrt.errors import ChecksumError, ModelFileError
+from motionrt.models import Sessions, TextMotionModel, load_manifest, verify
+
+TEXT, MOTION = "models/tmr_text.tiny.onnx", "models/tmr_motion.tiny.onnx"
+EXPECTED = hashlib.sha256((TINY / TEXT).read_bytes()).hexdigest()
+
+
+def tampered(folder: Path) -> None:
+    content = bytearray((folder / TEXT).read_bytes())
+    content[len(content) // 2] ^= 1
+    (folder / TEXT).write_bytes(content)
+
+
+def truncated(folder: Path) -> None:
+    (folder / TEXT).write_bytes((folder / TEXT).read_bytes()[:-1])
+
+
+def swapped(folder: Path) -> None:
+    (folder / TEXT).write_bytes((folder / MOTION).read_bytes())
+
+
+def emptied(folder: Path) -> None:
+    (folder / TEXT).write_bytes(b"")
+
+
+@pytest.mark.parametrize("damage", [tampered, truncated, swapped, emptied])
+def test_a_damaged_model_is_refused_before_it_is_opened(tmp_path: Path, damage) -> None:
+    folder = copy_tiny(tmp_path)
+    damage(folder)
+    found = hashlib.sha256((folder / TEXT).read_bytes()).hexdigest()
+    with pytest.raises(ChecksumError) as caught:
+        Sessions(folder).session("tmr_text")
+    for part in (str(folder / TEXT), EXPECTED, found, "install motionrt again"):
+        assert part in str(caught.value)
+
+
+def test_other_models_of_the_folder_still_open(tmp_path: Path) -> None:
+    folder = copy_tiny(tmp_path)
+    tampered(folder)
+    assert Sessions(folder).session("tmr_motion").get_inputs()[0].name == "motion"
+
+
+def test_a_damaged_tokenizer_is_refused(tmp_path: Path) -> None:
+    folder = copy_tiny(tmp_path)
+    path = folder / "models" / "tokenizer.json"
+    path.write_bytes(path.read_bytes() + b" ")
+    with pytest.raises(ChecksumError, match=r"tokenizer\.json"):
+        TextMotionModel(folder).embed_text(["walk"])
+
+
+def test_a_missing_model_is_refused_with_its_path(tmp_path: Path) -> None:
+    folder = copy_tiny(tmp_path)
+    (folder / TEXT).unlink()
+    with pytest.raises(ModelFileError, match=r"cannot read .*tmr_text\.tiny\.onnx.*install motionrt again"):
+        Sessions(folder).session("tmr_text")
+
+
+def test_a_variant_that_is_not_shipped_says_how_to_build_it() -> None:
+    with pytest.raises(ModelFileError, match=r"not shipped.*python -m motionrt_export all"):
+        Sessions(TINY).session("tmr_text", "fp32")
+
+
+def test_verify_finds_the_shipped_files_whole_and_the_others_not_built() -> None:
+    reports = verify(load_manifest(TINY / "models_manifest.yaml"))
+    assert {(r.model, r.variant): r.state for r in reports} == {
+        **{(m, "tiny"): "ok" for m in ("sentence_encoder", "tmr_text", "tmr_motion", "tmr_decoder")},
+        **{(m, "fp32"): "not built" for m in ("sentence_encoder", "tmr_text", "tmr_motion", "tmr_decoder")},
+        ("sentence_encoder", "tokenizer"): "ok",
+    }
+    assert all(report.ok for report in reports)
+
+
+def test_verify_tells_damaged_from_missing(tmp_path: Path) -> None:
+    folder = copy_tiny(tmp_path)
+    truncated(folder)
+    (folder / MOTION).unlink()
+    bad = {r.model: r for r in verify(load_manifest(folder / "models_manifest.yaml")) if not r.ok}
+    assert {name: report.state for name, report in bad.items()} == {
+        "tmr_text": "damaged",
+        "tmr_motion": "missing",
+    }
+    assert bad["tmr_text"].expected == EXPECTED
+    assert bad["tmr_text"].found == hashlib.sha256((folder / TEXT).read_bytes()).hexdigest()
+    assert bad["tmr_motion"].found is None

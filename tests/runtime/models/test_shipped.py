@@ -1,0 +1,67 @@
+"""The models that ship: every file as the manifest says, and a sentence encoder that knows what is alike."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from motionrt.errors import ModelFileError
+from motionrt.models import Manifest, SentenceEncoder, Sessions, TextMotionModel, find_manifest, load_manifest, verify
+
+
+@pytest.fixture(scope="module")
+def manifest() -> Manifest:
+    try:
+        return load_manifest(find_manifest())
+    except ModelFileError as error:
+        pytest.skip(f"no models here: {error}")
+
+
+def test_every_shipped_file_is_whole(manifest: Manifest) -> None:
+    reports = verify(manifest)
+    assert [report for report in reports if not report.ok] == []
+    assert {r.model for r in reports} >= {"sentence_encoder", "tmr_text", "tmr_motion", "tmr_decoder"}
+
+
+def test_sizes_and_licences_are_told(manifest: Manifest) -> None:
+    for model in manifest.models.values():
+        variant = model.variant()
+        assert variant.shipped
+        assert manifest.locate(variant.file).stat().st_size == variant.bytes
+        assert model.licence
+        assert model.training_data
+
+
+def test_measured_parity_is_within_the_promise(manifest: Manifest) -> None:
+    for model in manifest.models.values():
+        for variant in model.variants.values():
+            for output, limits in variant.tolerance.items():
+                for name, limit in limits.items():
+                    found = variant.parity[output][name]
+                    assert found >= limit if name.endswith("_min") else found <= limit
+
+
+def test_sessions_take_and_give_what_the_manifest_says(manifest: Manifest) -> None:
+    sessions = Sessions(manifest.path, threads=1)
+    kinds = {"tensor(float)": "float32", "tensor(int64)": "int64", "tensor(bool)": "bool"}
+    for model in manifest.models.values():
+        session = sessions.session(model.name)
+        for found, told in ((session.get_inputs(), model.inputs), (session.get_outputs(), model.outputs)):
+            assert [(x.name, kinds[x.type], tuple(x.shape)) for x in found] == [
+                (x.name, x.dtype, x.shape) for x in told
+            ]
+
+
+def test_sentences_of_one_meaning_are_nearer_than_others(manifest: Manifest) -> None:
+    encoder = SentenceEncoder(Sessions(manifest.path, threads=1))
+    walk, walking, throw = encoder.embed(
+        ["a person walks forward", "somebody is walking straight ahead", "a man throws a ball overhand"]
+    )
+    assert walk @ walking > 0.7 > walk @ throw
+
+
+def test_a_text_and_a_decoded_motion_go_round(manifest: Manifest) -> None:
+    model = TextMotionModel(manifest.path, threads=1)
+    motion = model.decode(model.text_latents(["a person walks forward"]), 60)
+    assert np.isfinite(motion).all()
+    assert model.embed_motion(list(motion)) @ model.embed_text(["a person walks forward"])[0] > 0.3
