@@ -2,9 +2,11 @@
 
     python -m motionrt_export all --checkpoints models --out models
     python -m motionrt_export validate --model tmr_text --variant int8 --file models/tmr_text.int8.onnx
+    python -m motionrt_export assets
 
 The first command rebuilds the ONNX files and the manifest, and proves every file against torch in a process
-of its own; a file beyond its tolerance ends it with exit code 1.
+of its own; a file beyond its tolerance ends it with exit code 1. The last makes the package data that depends on the
+models: the starter gallery and the embedded captions.
 """
 
 from __future__ import annotations
@@ -18,9 +20,11 @@ from pathlib import Path
 
 import torch
 
+from motionrt import Runtime
 from motionrt_export.measures import Figures
 from motionrt_export.publish import Layout, publish, tolerance
 from motionrt_export.sources import Sources
+from motionrt_export.starter import build_starter
 from motionrt_export.validate import Subject, ValidationError, validate
 
 
@@ -36,7 +40,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def parser() -> argparse.ArgumentParser:
-    """Two commands."""
+    """Three commands."""
     result = argparse.ArgumentParser(prog="motionrt_export", description="Export the trained models to ONNX.")
     commands = result.add_subparsers(required=True, metavar="COMMAND")
     everything = commands.add_parser("all", help="export, quantise, validate and write the manifest")
@@ -56,6 +60,10 @@ def parser() -> argparse.ArgumentParser:
     one.add_argument("--file", type=Path, required=True)
     one.add_argument("--checkpoints", type=Path, default=Path("models"))
     one.set_defaults(run=_validate)
+    assets = commands.add_parser("assets", help="starter gallery and embedded captions from the exported models")
+    assets.add_argument("--models", type=Path, help="manifest or folder (default: the shipped models)")
+    assets.add_argument("--out", type=Path, default=Path("runtime/motionrt/_assets"))
+    assets.set_defaults(run=_assets)
     return result
 
 
@@ -73,6 +81,14 @@ def _all(args: argparse.Namespace) -> int:
 def _validate(args: argparse.Namespace) -> int:
     torch.set_num_threads(1)  # figures must not depend on the number of cores
     print(json.dumps(validate_file(Sources(args.checkpoints), args.model, args.variant, args.file)))
+    return 0
+
+
+def _assets(args: argparse.Namespace) -> int:
+    runtime = Runtime(args.models)
+    gallery = build_starter(runtime, args.out / "starter")
+    runtime.captions().save(args.out / "captions.npz")
+    print(f"{args.out}: a starter gallery of {len(gallery)} motions, and the captions")
     return 0
 
 
