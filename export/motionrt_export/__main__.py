@@ -6,7 +6,7 @@
 
 The first command rebuilds the ONNX files and the manifest, and proves every file against torch in a process
 of its own; a file beyond its tolerance ends it with exit code 1. The last makes the package data that depends on the
-models: the starter gallery and the embedded captions.
+models: the embeddings of the starter gallery and of the captions.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from motionrt import Runtime
 from motionrt_export.measures import Figures
 from motionrt_export.publish import Layout, publish, tolerance
 from motionrt_export.sources import Sources
-from motionrt_export.starter import build_starter
+from motionrt_export.starter import embed_starter
 from motionrt_export.validate import Subject, ValidationError, validate
 
 
@@ -60,7 +60,7 @@ def parser() -> argparse.ArgumentParser:
     one.add_argument("--file", type=Path, required=True)
     one.add_argument("--checkpoints", type=Path, default=Path("models"))
     one.set_defaults(run=_validate)
-    assets = commands.add_parser("assets", help="starter gallery and embedded captions from the exported models")
+    assets = commands.add_parser("assets", help="embed the starter gallery and the captions again")
     assets.add_argument("--models", type=Path, help="manifest or folder (default: the shipped models)")
     assets.add_argument("--out", type=Path, default=Path("runtime/motionrt/_assets"))
     assets.set_defaults(run=_assets)
@@ -86,7 +86,7 @@ def _validate(args: argparse.Namespace) -> int:
 
 def _assets(args: argparse.Namespace) -> int:
     runtime = Runtime(args.models)
-    gallery = build_starter(runtime, args.out / "starter")
+    gallery = embed_starter(runtime, args.out / "starter")
     runtime.captions().save(args.out / "captions.npz")
     print(f"{args.out}: a starter gallery of {len(gallery)} motions, and the captions")
     return 0
