@@ -53,8 +53,10 @@ def draw(axis: plt.Axes, motion: Motion) -> None:
                 side = SMPL24.names[joint].split("_")[0]
                 xs, ys = local[[parent, joint], 0] + column * SPACING, local[[parent, joint], 1]
                 axis.plot(xs, ys, color=COLOURS.get(side, COLOURS["middle"]), lw=2, solid_capstyle="round")
+        head = local[SMPL24.index("head")]
+        axis.plot(head[0] + column * SPACING, head[1] + 0.08, "o", color=COLOURS["middle"], ms=6)
     axis.axhline(0, color="#a0aec0", lw=0.8, zorder=0)
-    axis.set(xlim=(-0.6, POSES * SPACING - 0.35), ylim=(-0.1, 2.0), aspect="equal")
+    axis.set(xlim=(-0.6, POSES * SPACING - 0.35), ylim=(-0.1, max(1.9, motion.positions()[..., 1].max() + 0.2)), aspect="equal")
     axis.axis("off")
 
 

@@ -42,12 +42,12 @@ def train(args: argparse.Namespace) -> dict[str, float]:
     return Trainer(task, schedule, args.out, notes).run()
 
 
-def release(source: Path, target: Path) -> None:
+def release(source: Path, target: Path, command: str | None = None) -> None:
     """Averaged weights of a trainer's checkpoint -> float16 safetensors with how they came to be."""
     state: dict[str, Any] = load_state(source)
     model = TMR(**state["notes"]["network"])
     model.load_state_dict(state["model"])
-    facts = {name: state[name] for name in ("seed", "measures", "notes")}
+    facts = {name: state[name] for name in ("seed", "measures", "notes")} | ({"command": command} if command else {})
     facts |= {"recipe": "tmr", "steps": state["step"], "minutes": state["elapsed"] / 60}
     save_release(model, target, facts)
 
@@ -64,6 +64,7 @@ def parser() -> argparse.ArgumentParser:
     result.add_argument("--cache", type=Path, help="folder of text features (default: beside the corpus)")
     result.add_argument("--release", type=Path, help="best.pt to release; nothing is trained")
     result.add_argument("--to", type=Path, default=Path("models/tmr.safetensors"), help="released file")
+    result.add_argument("--command", help="the command that trained the checkpoint, to be released with it")
     add_options(result, Schedule)
     add_options(result, TmrSettings)
     return result
@@ -74,7 +75,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     reader = parser()
     args = reader.parse_args(arguments)
     if args.release:
-        release(args.release, args.to)
+        release(args.release, args.to, args.command)
     elif args.corpus and args.out:
         train(args)
     else:
