@@ -56,7 +56,8 @@ def draw(axis: plt.Axes, motion: Motion) -> None:
         head = local[SMPL24.index("head")]
         axis.plot(head[0] + column * SPACING, head[1] + 0.08, "o", color=COLOURS["middle"], ms=6)
     axis.axhline(0, color="#a0aec0", lw=0.8, zorder=0)
-    axis.set(xlim=(-0.6, POSES * SPACING - 0.35), ylim=(-0.1, max(1.9, motion.positions()[..., 1].max() + 0.2)), aspect="equal")
+    top = max(1.9, float(motion.positions()[..., 1].max()) + 0.2)
+    axis.set(xlim=(-0.6, POSES * SPACING - 0.35), ylim=(-0.1, top), aspect="equal")
     axis.axis("off")
 
 

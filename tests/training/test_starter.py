@@ -65,12 +65,20 @@ def test_training_lowers_the_held_out_loss_and_its_checkpoint_makes_a_gallery(
     prompts.write_text("# seconds | prompt\n2 | a person walks\n\n1.5 | a person waves\n", encoding="utf-8")
     monkeypatch.setattr(starter, "PROMPTS", prompts)
     monkeypatch.setattr(starter, "Runtime", lambda: Runtime(TINY))
+    monkeypatch.setattr(starter, "FARTHEST", np.inf)
+    monkeypatch.setattr(starter, "_between_floor_and_ceiling", lambda motion: True)
     gallery = starter.make(tmp_path / "run/best.pt", tmp_path / "gallery", candidates=2)
     assert {clip.id: clip.text for clip in gallery.clips} == {
         "a-person-walks": "a person walks",
         "a-person-waves": "a person waves",
     }
     assert gallery.motion("a-person-waves").frames == 30
+
+
+def test_roll_outs_that_leave_the_range_of_human_poses_are_dropped() -> None:
+    network = Continuation(width=16, blocks=1).eval()
+    torch.nn.init.constant_(network.out.bias, 100.0)
+    assert starter.best_of(network, Runtime(TINY).model, "a person walks", 20, candidates=3, seed=0) is None
 
 
 def test_the_starter_gallery_can_be_embedded_again_in_place(tmp_path: Path) -> None:

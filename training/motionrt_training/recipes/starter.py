@@ -1,11 +1,12 @@
 """Make the starter gallery: motions of prompts written for it, by a small autoregressive model trained here.
 
     python -m motionrt_training.recipes.starter --corpus runs/cmu.npz --out runs/starter --minutes 12
-    python -m motionrt_training.recipes.starter --make runs/starter/best.pt --to runtime/motionrt/_assets/starter
+    python -m motionrt_training.recipes.starter --make runs/starter/last.pt --to runtime/motionrt/_assets/starter
 
 A text does not say at which foot a walk starts, so the decoder of TMR, which maps a text to all frames at once, gives
 the average of all phases. The model here continues the last frames instead, so that a gait, once begun, goes on. TMR's
-decoder gives the first pose; of several roll-outs the one whose embedding is nearest to the prompt's is kept.
+decoder gives the first pose; of several roll-outs the one whose embedding is nearest to the prompt's is kept, and none
+that leaves the range of human poses. (The last checkpoint moves more than the one with the lowest held-out loss.)
 """
 
 from __future__ import annotations
@@ -34,6 +35,8 @@ from motionrt_training.options import add_options, from_namespace, option
 from motionrt_training.packed import PackedCorpus, load_packed, statistics
 from motionrt_training.trainer import Schedule, Trainer
 
+FARTHEST = 12.0  # standard deviations from the mean that a feature may have
+HIGHEST, LOWEST = 2.6, -0.25  # metres
 PROMPTS = Path(__file__).with_name("starter_prompts.txt")
 
 
@@ -132,7 +135,7 @@ def windows(corpus: PackedCorpus, split: str, mean: Tensor, std: Tensor, length:
     return Windows(torch.cat(frames), torch.cat(first), torch.cat(clips), texts)
 
 
-def make(checkpoint: Path, folder: Path, *, candidates: int = 16, warm_up: int = 20) -> Gallery:
+def make(checkpoint: Path, folder: Path, *, candidates: int = 32, warm_up: int = 20) -> Gallery:
     """Roll the prompts out, keep the best of each, and write the gallery with its motions to ``folder``."""
     state = load_state(checkpoint)
     network = Continuation(**state["notes"]["network"]).eval()
@@ -141,24 +144,33 @@ def make(checkpoint: Path, folder: Path, *, candidates: int = 16, warm_up: int =
     motions, texts = [], []
     for index, (seconds, text) in enumerate(read_prompts(PROMPTS)):
         frames = round(seconds * guo263.FPS)
-        motions.append(best_of(network, model, text, frames + warm_up, candidates, index)[warm_up:].canonical())
-        texts.append(text)
+        best = best_of(network, model, text, frames + warm_up, candidates, index)
+        if best is not None:
+            motions.append(best[warm_up:].canonical())
+            texts.append(text)
     ids = [re.sub(r"[^a-z0-9]+", "-", text.lower()).strip("-") for text in texts]
     return Gallery.from_motions(motions, ids, model, texts=texts).save(folder)
 
 
 def best_of(
     network: Continuation, model: TextMotionModel, text: str, frames: int, candidates: int, seed: int
-) -> Motion:
-    """Of ``candidates`` roll-outs, begun at TMR's pose with noise, the one that fits the text best."""
+) -> Motion | None:
+    """Of ``candidates`` roll-outs, begun at TMR's pose with noise, the plausible one that fits the text best."""
     latent = model.text_latents([text])
     pose = torch.from_numpy(model.decode(latent, network.history)[0, :, :POSE])
     noise = torch.randn((candidates, network.history, POSE), generator=torch.Generator().manual_seed(seed))
-    start = pose + 0.3 * noise * network.std
-    made = network.roll_out(start, torch.from_numpy(latent).expand(candidates, -1), frames).numpy()
-    motions = [_motion(features) for features in made]
+    made = network.roll_out(pose + 0.3 * noise * network.std, torch.from_numpy(latent).expand(candidates, -1), frames)
+    inside = (((made - network.mean) / network.std).abs() < FARTHEST).flatten(1).all(1)
+    motions = [motion for motion in map(_motion, made[inside].numpy()) if _between_floor_and_ceiling(motion)]
+    if not motions:
+        return None
     fits = model.embed_motion([guo263.encode(motion.grounded()) for motion in motions]) @ model.embed_text([text])[0]
     return motions[int(np.argmax(fits))]
+
+
+def _between_floor_and_ceiling(motion: Motion) -> bool:
+    heights = motion.positions()[..., 1]
+    return bool(heights.min() > LOWEST and heights.max() < HIGHEST)
 
 
 def read_prompts(path: Path) -> Iterator[tuple[float, str]]:
