@@ -44,13 +44,9 @@ def parser() -> argparse.ArgumentParser:
     result = argparse.ArgumentParser(prog="motionrt_export", description="Export the trained models to ONNX.")
     commands = result.add_subparsers(required=True, metavar="COMMAND")
     everything = commands.add_parser("all", help="export, quantise, validate and write the manifest")
-    everything.add_argument(
-        "--checkpoints", type=Path, default=Path("models"), help="folder of tmr.safetensors"
-    )
+    everything.add_argument("--checkpoints", type=Path, default=Path("models"), help="folder of tmr.safetensors")
     everything.add_argument("--out", type=Path, default=Path("models"), help="folder of the shipped files")
-    everything.add_argument(
-        "--build", type=Path, default=Path("build/models"), help="folder of the float32 files"
-    )
+    everything.add_argument("--build", type=Path, default=Path("build/models"), help="folder of the float32 files")
     everything.add_argument("--manifest", type=Path, default=Path("models_manifest.yaml"))
     everything.add_argument("--quality", type=Path, help="JSON: model -> figures for the manifest")
     everything.set_defaults(run=_all)

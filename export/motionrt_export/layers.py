@@ -108,7 +108,5 @@ class Decoder(nn.Module):
 def folded(attentions: list[LatentAttention]) -> nn.Linear:
     """Attention to one latent is value and output projection in a row: one Linear for all."""
     weights = [part.out.weight.double() @ part.value.weight.double() for part in attentions]
-    biases = [
-        part.out.weight.double() @ part.value.bias.double() + part.out.bias.double() for part in attentions
-    ]
+    biases = [part.out.weight.double() @ part.value.bias.double() + part.out.bias.double() for part in attentions]
     return linear(torch.cat(weights).float(), torch.cat(biases).float())

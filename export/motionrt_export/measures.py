@@ -12,9 +12,7 @@ Array = np.ndarray[Any, Any]
 Figures = dict[str, dict[str, float]]  # output -> measure -> worst value
 
 
-def measure(
-    found: Array, expected: Array, valid: Array | None = None, scale: Array | None = None
-) -> dict[str, float]:
+def measure(found: Array, expected: Array, valid: Array | None = None, scale: Array | None = None) -> dict[str, float]:
     """`cosine_min` over rows, `max_abs_error` and `rms_error`.
 
     Args:
@@ -46,9 +44,7 @@ def worst(many: Iterable[Mapping[str, Mapping[str, float]]]) -> Figures:
     return result
 
 
-def beyond(
-    figures: Mapping[str, Mapping[str, float]], tolerance: Mapping[str, Mapping[str, float]]
-) -> list[str]:
+def beyond(figures: Mapping[str, Mapping[str, float]], tolerance: Mapping[str, Mapping[str, float]]) -> list[str]:
     """What breaks the tolerance, in words."""
     broken = []
     for output, limits in tolerance.items():
@@ -63,8 +59,7 @@ def beyond(
 def rounded(figures: Mapping[str, Mapping[str, float]]) -> Figures:
     """For the manifest: cosines rounded down to 4 places, errors rounded up to 2 digits."""
     return {
-        output: {name: _rounded(name, value) for name, value in values.items()}
-        for output, values in figures.items()
+        output: {name: _rounded(name, value) for name, value in values.items()} for output, values in figures.items()
     }
 
 

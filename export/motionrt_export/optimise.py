@@ -53,9 +53,7 @@ CHOICES: dict[str, Quantisation] = {
 }
 
 
-def quantise(
-    model: onnx.ModelProto, choice: Quantisation, calibration: Iterable[Feeds] = ()
-) -> onnx.ModelProto:
+def quantise(model: onnx.ModelProto, choice: Quantisation, calibration: Iterable[Feeds] = ()) -> onnx.ModelProto:
     """A quantised copy of a float32 graph."""
     copy = onnx.ModelProto.FromString(model.SerializeToString())
     everything = product_names(copy)

@@ -26,9 +26,7 @@ FP32 = "fp32"
 SENTENCE_ENCODER = "sentence_encoder"
 HEADING = "Every shipped model. Written by `python -m motionrt_export all --checkpoints models --out models`."
 
-Check = Callable[
-    [str, str, Path], Figures
-]  # model, variant, file -> worst figures; raises when beyond tolerance
+Check = Callable[[str, str, Path], Figures]  # model, variant, file -> worst figures; raises when beyond tolerance
 Say = Callable[[str], None]
 
 
@@ -97,9 +95,7 @@ def _publish_tokenizer(sources: Sources, layout: Layout) -> Entry:
 def _variant(name: str, variant: str, layout: Layout, check: Check, say: Say) -> Entry:
     path, limits = layout.file(name, variant), tolerance(name, variant)
     figures = rounded(check(name, variant, path))
-    shown = ", ".join(
-        f"{output} {key} {figures[output][key]:g}" for output in limits for key in limits[output]
-    )
+    shown = ", ".join(f"{output} {key} {figures[output][key]:g}" for output in limits for key in limits[output])
     say(f"{path}: {path.stat().st_size / 1e6:.1f} MB, {shown}")
     return variant_entry(
         path,

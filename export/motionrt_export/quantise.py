@@ -41,9 +41,7 @@ def _scaled_lookup(node: NodeProto, weights: Weights) -> list[NodeProto]:
     return [
         helper.make_node("Gather", [rows, ids], [f"{name}.int8"], name=f"{node.name}.rows"),
         helper.make_node("Gather", [scales, ids], [f"{name}.scale"], name=f"{node.name}.scales"),
-        helper.make_node(
-            "Cast", [f"{name}.int8"], [f"{name}.float"], name=f"{node.name}.cast", to=TensorProto.FLOAT
-        ),
+        helper.make_node("Cast", [f"{name}.int8"], [f"{name}.float"], name=f"{node.name}.cast", to=TensorProto.FLOAT),
         helper.make_node("Mul", [f"{name}.float", f"{name}.scale"], [name], name=f"{node.name}.scaled"),
     ]
 
@@ -108,9 +106,7 @@ def _channel_product(node: NodeProto, weights: Weights, quantised: set[str]) -> 
     return [
         *new,
         helper.make_node("MatMulInteger", [xq, integers, xz, zero], [f"{result}.int32"], name=f"{name}.int8"),
-        helper.make_node(
-            "Cast", [f"{result}.int32"], [f"{result}.float"], name=f"{name}.cast", to=TensorProto.FLOAT
-        ),
+        helper.make_node("Cast", [f"{result}.int32"], [f"{result}.float"], name=f"{name}.cast", to=TensorProto.FLOAT),
         helper.make_node("Mul", [xs, scale], [f"{result}.scale"], name=f"{name}.scale"),
         helper.make_node("Mul", [f"{result}.float", f"{result}.scale"], [result], name=f"{name}.scaled"),
     ]

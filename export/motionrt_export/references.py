@@ -29,9 +29,7 @@ def sentence_reference(backbone: MiniLM) -> Reference:
 
 def text_reference(model: TMR) -> Reference:
     """Embedding and latent of token features."""
-    return _reference(
-        lambda x, mask: _encoded(model.encode_text(x, mask)), "token_features", "attention_mask"
-    )
+    return _reference(lambda x, mask: _encoded(model.encode_text(x, mask)), "token_features", "attention_mask")
 
 
 def motion_reference(model: TMR) -> Reference:

@@ -17,9 +17,7 @@ from motionrt_export.rewrite import Weights, replace, weight_products
 Feeds = Mapping[str, np.ndarray]
 
 
-def smooth(
-    model: onnx.ModelProto, nodes: Collection[str], calibration: Iterable[Feeds], *, alpha: float
-) -> None:
+def smooth(model: onnx.ModelProto, nodes: Collection[str], calibration: Iterable[Feeds], *, alpha: float) -> None:
     """In every named product x @ W, divide channel j of x by s_j and multiply row j of W by it (eq. 4).
 
     s_j = max|x_j|^alpha / max|W_j|^(1 - alpha), to the nearest power of two.
@@ -41,17 +39,13 @@ def _smoothed(node: NodeProto, weights: Weights, peak: np.ndarray, alpha: float)
     rows = np.maximum(np.abs(matrix).max(axis=1), 1e-5)
     exponent = np.rint(alpha * np.log2(np.maximum(peak, 1e-5)) - (1.0 - alpha) * np.log2(rows))
     weights.add(weight, np.ldexp(matrix, exponent.astype(int)[:, None]).astype(np.float32))
-    factor = weights.add(
-        f"{node.name}.smooth", np.ldexp(np.float32(1.0), -exponent.astype(int)).astype(np.float32)
-    )
+    factor = weights.add(f"{node.name}.smooth", np.ldexp(np.float32(1.0), -exponent.astype(int)).astype(np.float32))
     scaled = f"{node.name}.smoothed"
     node.input[0] = scaled
     return [helper.make_node("Mul", [x, factor], [scaled], name=f"{node.name}.smoothing"), node]
 
 
-def input_peaks(
-    model: onnx.ModelProto, nodes: Collection[str], calibration: Iterable[Feeds]
-) -> dict[str, np.ndarray]:
+def input_peaks(model: onnx.ModelProto, nodes: Collection[str], calibration: Iterable[Feeds]) -> dict[str, np.ndarray]:
     """Largest magnitude of every channel of the inputs of the named products, over all of `calibration`."""
     names = sorted({node.input[0] for node in weight_products(model) if node.name in nodes})
     session = _probe(model, names)

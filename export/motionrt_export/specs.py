@@ -60,9 +60,7 @@ _MOTION = TensorSpec(
     "m, rad, m/frame",
     "raw guo263 features at 20 fps, not normalised",
 )
-_EMBEDDING = TensorSpec(
-    "embedding", "float32", ("batch", 256), "1", "latent divided by its length: dot = cosine"
-)
+_EMBEDDING = TensorSpec("embedding", "float32", ("batch", 256), "1", "latent divided by its length: dot = cosine")
 _LATENT = TensorSpec("latent", "float32", ("batch", 256), "1", "mean of the predicted distribution")
 
 SENTENCE_ENCODER = GraphSpec(
@@ -73,9 +71,7 @@ SENTENCE_ENCODER = GraphSpec(
     ),
     (
         _TOKEN_FEATURES,
-        TensorSpec(
-            "sentence_embedding", "float32", ("batch", 384), "1", "masked mean of the features, unit length"
-        ),
+        TensorSpec("sentence_embedding", "float32", ("batch", 384), "1", "masked mean of the features, unit length"),
     ),
     "tokens",
     "attention_mask",
@@ -89,9 +85,7 @@ TMR_TEXT = GraphSpec(
     "attention_mask",
     ("embedding",),
 )
-TMR_MOTION = GraphSpec(
-    "tmr_motion", (_MOTION, _FRAME_MASK), (_EMBEDDING, _LATENT), "frames", "mask", ("embedding",)
-)
+TMR_MOTION = GraphSpec("tmr_motion", (_MOTION, _FRAME_MASK), (_EMBEDDING, _LATENT), "frames", "mask", ("embedding",))
 TMR_DECODER = GraphSpec("tmr_decoder", (_LATENT, _FRAME_MASK), (_MOTION,), "frames", "mask", ())
 
 GRAPHS: tuple[GraphSpec, ...] = (SENTENCE_ENCODER, TMR_TEXT, TMR_MOTION, TMR_DECODER)

@@ -108,9 +108,7 @@ def _compare(subject: Subject, session: ort.InferenceSession, feeds: Feeds) -> F
 def _padding(subject: Subject, session: ort.InferenceSession, length: int) -> Figures:
     """One row alone, and the same row with rubbish behind its end."""
     feeds = subject.examples(1, length, seed=length)
-    padded = {
-        tensor.name: _padded(tensor, feeds[tensor.name], subject.spec) for tensor in subject.spec.inputs
-    }
+    padded = {tensor.name: _padded(tensor, feeds[tensor.name], subject.spec) for tensor in subject.spec.inputs}
     alone, beside = run(session, feeds), run(session, padded)
     for tensor in subject.spec.outputs:
         if subject.spec.length in tensor.shape:

@@ -128,9 +128,7 @@ class Runtime:
             self._galleries[folder] = changed, Gallery.open(folder)
         return self._galleries[folder][1]
 
-    def describe(
-        self, motion: MotionLike, k: int = 5, captions: Sequence[str] | None = None
-    ) -> list[Description]:
+    def describe(self, motion: MotionLike, k: int = 5, captions: Sequence[str] | None = None) -> list[Description]:
         """The captions that fit a motion best, out of a list.
 
         Args:
@@ -192,9 +190,7 @@ class Runtime:
         """
         return build_gallery(folder, self._opener(), out=out, jobs=jobs, mapping=mapping, progress=progress)
 
-    def update_gallery(
-        self, gallery: str | Path, *, jobs: int = 1, progress: Progress | None = None
-    ) -> BuildReport:
+    def update_gallery(self, gallery: str | Path, *, jobs: int = 1, progress: Progress | None = None) -> BuildReport:
         """Index what is new or changed, drop what is gone; see :func:`motionrt.retrieval.update_gallery`."""
         return update_gallery(gallery, self._opener(), jobs=jobs, progress=progress)
 

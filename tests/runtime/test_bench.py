@@ -31,9 +31,7 @@ def fake_models(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def open_double(work: Workload, threads: int, models: str | None) -> rivals.Rival:
     """A rival that knows one case only."""
-    return rivals.Rival(
-        {TEXT: lambda: (work.texts, threads, models)}, [sys.executable, "-c", "print('ready')"]
-    )
+    return rivals.Rival({TEXT: lambda: (work.texts, threads, models)}, [sys.executable, "-c", "print('ready')"])
 
 
 def test_contenders_take_turns_and_warm_up_before_every_turn() -> None:

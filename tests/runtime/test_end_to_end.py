@@ -88,9 +88,7 @@ def test_the_command_and_the_library_give_the_same_hits(library: Path, built: di
 
 
 def test_hits_are_saved_as_bvh(library: Path, built: dict[str, Any], tmp_path: Path) -> None:
-    hits = motionrt(
-        "retrieve", "dance", "--gallery", library, "--models", MODELS, "--save", tmp_path / "hits"
-    )
+    hits = motionrt("retrieve", "dance", "--gallery", library, "--models", MODELS, "--save", tmp_path / "hits")
     saved = sorted((tmp_path / "hits").glob("*.bvh"))
     assert len(saved) == len(hits) == 6
     assert load_motion(saved[0]).frames > 0

@@ -161,9 +161,7 @@ def test_moments_rank_spans_of_a_long_motion(runtime: Runtime) -> None:
     assert found.curve.shape == (200,)
 
 
-def test_galleries_are_built_and_updated_through_the_runtime(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_galleries_are_built_and_updated_through_the_runtime(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     opened: list[dict[str, object]] = []
 
     def open_model(models: object, **options: object) -> FakeEmbedder:

@@ -76,6 +76,4 @@ def test_reconstruction_ignores_what_the_mask_hides() -> None:
 
 
 def test_latent_distance_is_smooth_l1() -> None:
-    assert float(L.latent_distance(torch.tensor([[0.0, 0.0]]), torch.tensor([[0.5, 3.0]]))) == pytest.approx(
-        1.3125
-    )
+    assert float(L.latent_distance(torch.tensor([[0.0, 0.0]]), torch.tensor([[0.5, 3.0]]))) == pytest.approx(1.3125)

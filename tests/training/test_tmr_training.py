@@ -37,9 +37,7 @@ class Words:
     def encode(self, text: str) -> tuple[np.ndarray, np.ndarray]:
         self.calls += 1
         seeds = [int.from_bytes(word.encode("utf-8")[-4:], "big") for word in text.split()]
-        tokens = np.stack([np.random.default_rng(seed).standard_normal(12) for seed in seeds]).astype(
-            np.float32
-        )
+        tokens = np.stack([np.random.default_rng(seed).standard_normal(12) for seed in seeds]).astype(np.float32)
         mean = tokens.mean(0)
         return tokens, mean / np.linalg.norm(mean)
 
@@ -61,9 +59,7 @@ def task_of(settings: TmrSettings = TINY) -> TmrTask:
     length = np.array([len(tokens) for tokens, _ in encoded])
     tokens = np.concatenate([tokens for tokens, _ in encoded]).astype(np.float16)
     sentences = np.stack([sentence for _, sentence in encoded]).astype(np.float16)
-    return TmrTask(
-        corpus, TextFeatures(tokens, np.cumsum(length) - length, length, sentences), settings, seed=1
-    )
+    return TmrTask(corpus, TextFeatures(tokens, np.cumsum(length) - length, length, sentences), settings, seed=1)
 
 
 class StopsAt(TmrTask):
@@ -128,9 +124,7 @@ def test_the_ablation_switches_remove_their_terms(settings: TmrSettings, present
 
 
 def test_alternate_reconstruction_is_that_of_both_on_average() -> None:
-    both, alternate = (
-        TmrSettings(reconstruct=name, dropout=0.0, speed=0.0) for name in ("both", "alternate")
-    )
+    both, alternate = (TmrSettings(reconstruct=name, dropout=0.0, speed=0.0) for name in ("both", "alternate"))
     task = task_of(TmrSettings(**{**vars(TINY), "dropout": 0.0}))
     batch = task.batch(0)
     motion, mask = task.model.normalise(batch["motion"]), batch["mask"]
@@ -180,9 +174,7 @@ def test_views_stay_inside_the_clip_and_keep_enough_of_it() -> None:
 
 def test_statistics_leave_the_test_split_out() -> None:
     features = np.concatenate([np.ones((10, 3)), np.full((10, 3), 50.0)]).astype(np.float16)
-    clips = [
-        PackedClip(split, split, start, 10, ("a",), ("a",)) for split, start in (("train", 0), ("test", 10))
-    ]
+    clips = [PackedClip(split, split, start, 10, ("a",), ("a",)) for split, start in (("train", 0), ("test", 10))]
     mean, std = statistics(PackedCorpus(features, tuple(clips), np.negative))
     np.testing.assert_allclose(mean, 0.0)  # ones and their mirror images, which are minus ones here
     assert (std > 0).all()
@@ -190,9 +182,7 @@ def test_statistics_leave_the_test_split_out() -> None:
 
 def test_a_release_holds_the_averaged_weights_in_half_precision(tmp_path: Path) -> None:
     task = task_of()
-    Trainer(
-        task, Schedule(**{**vars(QUICK), "validate_every": 3}), tmp_path, {"network": task.model.config}
-    ).run()
+    Trainer(task, Schedule(**{**vars(QUICK), "validate_every": 3}), tmp_path, {"network": task.model.config}).run()
     release(tmp_path / "best.pt", tmp_path / "tmr.safetensors")
     model, metadata = load_release(tmp_path / "tmr.safetensors")
     best = load_any(tmp_path / "best.pt")
@@ -227,8 +217,6 @@ def test_a_packed_file_is_read_back(tmp_path: Path) -> None:
 
 
 def test_every_setting_is_an_option() -> None:
-    args = parser().parse_args(
-        ["--threshold", "none", "--no-contrastive", "--minutes", "5", "--bf16", "false"]
-    )
+    args = parser().parse_args(["--threshold", "none", "--no-contrastive", "--minutes", "5", "--bf16", "false"])
     assert (args.threshold, args.contrastive, args.minutes, args.bf16) == (None, False, 5.0, False)
     assert parser().parse_args([]).threshold == 0.8

@@ -19,9 +19,7 @@ def add_options(parser: argparse.ArgumentParser, settings: type) -> None:
         required = field.default is dataclasses.MISSING and field.default_factory is dataclasses.MISSING
         help_text = str(field.metadata.get("help", "")) + ("" if required else f" (default: {field.default})")
         if hints[field.name] is bool:
-            parser.add_argument(
-                flag, action=argparse.BooleanOptionalAction, default=field.default, help=help_text
-            )
+            parser.add_argument(flag, action=argparse.BooleanOptionalAction, default=field.default, help=help_text)
         else:
             parser.add_argument(
                 flag,

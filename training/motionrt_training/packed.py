@@ -64,9 +64,7 @@ def load_packed(path: str | Path) -> PackedCorpus:
     return PackedCorpus(features, tuple(clips))
 
 
-def statistics(
-    corpus: PackedCorpus, *, equalise: bool = True
-) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+def statistics(corpus: PackedCorpus, *, equalise: bool = True) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
     """Mean and floored standard deviation (263,) of the training split, mirror images included.
 
     `equalise`: one deviation per kind of feature (Guo et al. 2022), so that still joints are not blown up.

@@ -36,9 +36,7 @@ class TmrSettings:
     reconstruction: bool = option(True, "reconstruction term (table 3)")
     margin: bool = option(False, "margin loss in place of InfoNCE (table 3)")
     margin_size: float = option(1.0, "distance beyond which the margin loss leaves negatives alone")
-    threshold: float | None = option(
-        0.8, "text similarity (0 to 1) above which negatives are dropped (table 4)"
-    )
+    threshold: float | None = option(0.8, "text similarity (0 to 1) above which negatives are dropped (table 4)")
     directions: bool = option(True, "never drop a negative whose side or direction words differ")
     temperature: float = option(0.1, "temperature of InfoNCE")
     contrastive_weight: float = option(0.1, "weight of the contrastive term")

@@ -60,9 +60,7 @@ class Task(Protocol):
 class Trainer:
     """Trains `task` into `folder`: last.pt (to go on from), best.pt (averaged weights), log.jsonl."""
 
-    def __init__(
-        self, task: Task, schedule: Schedule, folder: str | Path, notes: dict[str, Any] | None = None
-    ) -> None:
+    def __init__(self, task: Task, schedule: Schedule, folder: str | Path, notes: dict[str, Any] | None = None) -> None:
         self.task, self.schedule, self.folder, self.notes = task, schedule, Path(folder), notes or {}
         self.device = _device(schedule.device)
         self.bf16 = _bf16(schedule.bf16, self.device)

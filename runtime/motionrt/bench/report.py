@@ -65,9 +65,7 @@ def rows(run: dict[str, Any]) -> list[list[str]]:
     table = []
     for case in run["cases"]:
         p50 = case["p50_ms"]
-        table.append(
-            [case["case"], _ms(p50), _ms(case["p95_ms"]), f"{1000 / p50:,.0f}/s", *_against(case, "p50_ms")]
-        )
+        table.append([case["case"], _ms(p50), _ms(case["p95_ms"]), f"{1000 / p50:,.0f}/s", *_against(case, "p50_ms")])
     cold = run["cold_start"]
     against = _against(cold, "seconds", 1000)
     table.append(["cold start to first text", _ms(cold["seconds"] * 1000), "", "", *against])

@@ -48,7 +48,5 @@ def open_rival(name: str, work: Workload, threads: int, models: str | None) -> R
     try:
         opener: OpenRival = found[0].load()
     except ImportError as error:
-        raise InvalidInputError(
-            f"cannot compare with '{name}': {error}; try: pip install motionrt[export]"
-        ) from error
+        raise InvalidInputError(f"cannot compare with '{name}': {error}; try: pip install motionrt[export]") from error
     return opener(work, threads, models)

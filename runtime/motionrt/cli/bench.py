@@ -16,16 +16,10 @@ Every figure is for one call; --against takes turns in the same process at the s
 def add(commands: Any) -> None:
     """Add the command."""
     parser = command(commands, "bench", run, HELP)
-    parser.add_argument(
-        "--threads", type=_counts, default=[1, 2], metavar="N,N", help="thread counts (default: 1,2)"
-    )
+    parser.add_argument("--threads", type=_counts, default=[1, 2], metavar="N,N", help="thread counts (default: 1,2)")
     parser.add_argument("--against", metavar="NAME", help="compare with this too, if it is installed: torch")
-    parser.add_argument(
-        "--quick", action="store_true", help="a few calls only: shows that it runs, not how fast"
-    )
-    parser.add_argument(
-        "--models", type=Path, metavar="PATH", help="models manifest or folder (default: shipped)"
-    )
+    parser.add_argument("--quick", action="store_true", help="a few calls only: shows that it runs, not how fast")
+    parser.add_argument("--models", type=Path, metavar="PATH", help="models manifest or folder (default: shipped)")
     add_json(parser)
 
 
@@ -34,9 +28,7 @@ def run(arguments: argparse.Namespace) -> int:
     from motionrt.bench.report import rows, run_bench
 
     models = None if arguments.models is None else str(arguments.models)
-    found = run_bench(
-        arguments.threads, models=models, against=arguments.against, quick=arguments.quick, note=say
-    )
+    found = run_bench(arguments.threads, models=models, against=arguments.against, quick=arguments.quick, note=say)
     if arguments.json:
         print_json(found)
         return 0

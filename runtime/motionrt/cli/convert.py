@@ -32,9 +32,7 @@ def run(arguments: argparse.Namespace) -> int:
         motion = motion.resample(arguments.fps)
     path = motion.save(arguments.output)
     if arguments.json:
-        print_json(
-            {"path": str(path), "frames": motion.frames, "fps": motion.fps, "seconds": motion.duration}
-        )
+        print_json({"path": str(path), "frames": motion.frames, "fps": motion.fps, "seconds": motion.duration})
     else:
         print(f"{path}: {motion.frames} frames, {motion.duration:.2f} s at {motion.fps:g} fps")
     return 0

@@ -27,16 +27,12 @@ def add(commands: Any) -> None:
     parts = group.add_subparsers(title="commands", metavar="COMMAND", required=True)
     build = command(parts, "build", run_build, BUILD)
     build.add_argument("folder", type=Path, help="where the motion files are")
-    build.add_argument(
-        "-o", "--out", type=Path, metavar="DIR", help="gallery (default: FOLDER/.motionrt-gallery)"
-    )
+    build.add_argument("-o", "--out", type=Path, metavar="DIR", help="gallery (default: FOLDER/.motionrt-gallery)")
     add_mapping(build)
     update = command(parts, "update", run_update, UPDATE)
     update.add_argument("gallery", type=Path, help="a gallery, or the folder that was indexed")
     for parser in (build, update):
-        parser.add_argument(
-            "--jobs", type=int, metavar="N", help="processes, of one thread each (default: at most 2)"
-        )
+        parser.add_argument("--jobs", type=int, metavar="N", help="processes, of one thread each (default: at most 2)")
     info = command(parts, "info", run_info, INFO)
     info.add_argument("gallery", type=Path, help="a gallery, or the folder that was indexed")
     for parser in (build, update):

@@ -23,9 +23,7 @@ def add(commands: Any) -> None:
     group = commands.add_parser("models", help="list and verify the models")
     parts = group.add_subparsers(title="commands", metavar="COMMAND", required=True)
     for parser in (command(parts, "list", run_list, LIST), command(parts, "verify", run_verify, VERIFY)):
-        parser.add_argument(
-            "--models", type=Path, metavar="PATH", help="manifest or folder (default: shipped)"
-        )
+        parser.add_argument("--models", type=Path, metavar="PATH", help="manifest or folder (default: shipped)")
         add_json(parser)
 
 

@@ -12,9 +12,7 @@ if TYPE_CHECKING:
     from motionrt.runtime import Runtime
 
 
-def command(
-    commands: Any, name: str, run: Callable[[argparse.Namespace], int], text: str
-) -> argparse.ArgumentParser:
+def command(commands: Any, name: str, run: Callable[[argparse.Namespace], int], text: str) -> argparse.ArgumentParser:
     """A new command; ``text`` is its help, whose first line stands in the list of commands."""
     parser: argparse.ArgumentParser = commands.add_parser(
         name,
@@ -33,14 +31,10 @@ def add_json(parser: argparse.ArgumentParser) -> None:
 
 def add_models(parser: argparse.ArgumentParser, *, threads: bool = True) -> None:
     """``--models`` and, where the user may choose, ``--threads``."""
-    parser.add_argument(
-        "--models", type=Path, metavar="PATH", help="models manifest or folder (default: shipped)"
-    )
+    parser.add_argument("--models", type=Path, metavar="PATH", help="models manifest or folder (default: shipped)")
     parser.set_defaults(threads=None)
     if threads:
-        parser.add_argument(
-            "--threads", type=int, metavar="N", help="threads of the models (default: at most 2)"
-        )
+        parser.add_argument("--threads", type=int, metavar="N", help="threads of the models (default: at most 2)")
 
 
 def add_mapping(parser: argparse.ArgumentParser) -> None:

@@ -21,13 +21,9 @@ def add(commands: Any) -> None:
     """Add the command."""
     parser = command(commands, "retrieve", run, HELP)
     parser.add_argument("text", help="a sentence, as in 'a person walks in a circle'")
-    parser.add_argument(
-        "--gallery", type=Path, metavar="DIR", help="a gallery, or the folder that was indexed"
-    )
+    parser.add_argument("--gallery", type=Path, metavar="DIR", help="a gallery, or the folder that was indexed")
     parser.add_argument("-k", type=int, default=10, metavar="N", help="how many hits (default: 10)")
-    parser.add_argument(
-        "--windows", action="store_true", help="every 10 s window is a hit, not the best of a clip"
-    )
+    parser.add_argument("--windows", action="store_true", help="every 10 s window is a hit, not the best of a clip")
     parser.add_argument("--save", type=Path, metavar="DIR", help="write the hits there as BVH")
     add_json(parser)
     add_models(parser)

@@ -49,9 +49,7 @@ def read_bvh(path: str | Path, *, fps: float | None = None) -> RigClip:
     return build_rig(joints, *_read_motion(text, start.end(), joints, path, fps))
 
 
-def _read_motion(
-    text: str, at: int, joints: list[BvhJoint], path: Path, fps: float | None
-) -> tuple[Values, float]:
+def _read_motion(text: str, at: int, joints: list[BvhJoint], path: Path, fps: float | None) -> tuple[Values, float]:
     """Channel values ``(F, C)`` and the frame rate."""
     channels = sum(len(joint.channels) for joint in joints)
     if channels == 0:

@@ -34,9 +34,7 @@ def _diagnose(text: str, first_line: int, shape: tuple[int, int], path: Path) ->
     return _wrong_count([(number, len(words)) for number, words in rows], first_line, shape, path)
 
 
-def _wrong_count(
-    rows: list[tuple[int, int]], first_line: int, shape: tuple[int, int], path: Path
-) -> FormatError:
+def _wrong_count(rows: list[tuple[int, int]], first_line: int, shape: tuple[int, int], path: Path) -> FormatError:
     """An error for a wrong number of values, given line number and number of values of every filled line."""
     frames, channels = shape
     total = sum(count for _, count in rows)

@@ -26,9 +26,7 @@ def all_pairs(similarity: npt.ArrayLike) -> Retrieval:
     return retrieval(similarity)
 
 
-def all_with_threshold(
-    similarity: npt.ArrayLike, text_similarity: npt.ArrayLike, threshold: float = 0.95
-) -> Retrieval:
+def all_with_threshold(similarity: npt.ArrayLike, text_similarity: npt.ArrayLike, threshold: float = 0.95) -> Retrieval:
     """Protocol (b): an item is correct, too, when its text is at least ``threshold`` similar to the query's
     text.
     """
@@ -36,9 +34,7 @@ def all_with_threshold(
     return retrieval(similarity, correct | np.eye(len(correct), dtype=bool))
 
 
-def dissimilar_subset(
-    similarity: npt.ArrayLike, text_similarity: npt.ArrayLike, size: int = 100
-) -> Retrieval:
+def dissimilar_subset(similarity: npt.ArrayLike, text_similarity: npt.ArrayLike, size: int = 100) -> Retrieval:
     """Protocol (c): only the ``size`` pairs (all, when there are fewer) whose texts are least alike."""
     chosen = most_dissimilar(text_similarity, size)
     return retrieval(checked_similarity(similarity)[np.ix_(chosen, chosen)])

@@ -67,9 +67,7 @@ def ranks(similarity: npt.ArrayLike, correct: npt.ArrayLike | None = None) -> np
     matrix = checked_similarity(similarity)
     right = np.eye(len(matrix), dtype=bool) if correct is None else np.asarray(correct, dtype=bool)
     if right.shape != matrix.shape or not right.any(axis=1).all():
-        raise InvalidInputError(
-            f"correct must be {matrix.shape} with at least one correct item for every query"
-        )
+        raise InvalidInputError(f"correct must be {matrix.shape} with at least one correct item for every query")
     best = np.where(right, matrix, -np.inf).max(axis=1, keepdims=True)
     return np.asarray(1 + ((matrix >= best) & ~right).sum(axis=1), dtype=np.int64)
 

@@ -86,9 +86,7 @@ def _sides_given(mapping: Mapping[str, str] | None) -> bool:
     return any(role.startswith(("left_", "right_")) for role in mapping or {})
 
 
-def _standing(
-    clip: RigClip, roles: RigRoles, reference: FloatArray | None
-) -> tuple[RigPose | None, Array | None]:
+def _standing(clip: RigClip, roles: RigRoles, reference: FloatArray | None) -> tuple[RigPose | None, Array | None]:
     """The first of reference and rest pose that is a known standing pose, with its body axes."""
     for local in (reference, None) if reference is not None else (None,):
         pose = still_pose(clip, roles, local)
@@ -117,11 +115,7 @@ def _resampled(motion: RigPose, alignments: Alignments) -> dict[str, Array]:
     """Spine and neck of the target from chains of any length, except joints that the user has mapped."""
     joints = motion.roles.joints
     trunk = [joints["pelvis"], *motion.roles.spine]
-    out = {
-        f"spine{k}": _between(motion, alignments, trunk, k / 3)
-        for k in (1, 2, 3)
-        if f"spine{k}" not in joints
-    }
+    out = {f"spine{k}": _between(motion, alignments, trunk, k / 3) for k in (1, 2, 3) if f"spine{k}" not in joints}
     chain = [trunk[-1], *motion.roles.neck]
     if "neck" not in joints:
         out["neck"] = _between(motion, alignments, chain, 0.5)

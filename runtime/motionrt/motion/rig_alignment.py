@@ -48,9 +48,7 @@ def align_standing(pose: RigPose, axes: Array) -> Alignments:
     """
     posed: dict[int, Array] = dict.fromkeys((*pose.roles.spine, *pose.roles.neck), axes)
     joints = pose.roles.joints
-    posed.update(
-        {joint: axes for role, joint in joints.items() if "_" not in role or role.endswith("collar")}
-    )
+    posed.update({joint: axes for role, joint in joints.items() if "_" not in role or role.endswith("collar")})
     for side in SIDES:
         _pose_limb(pose, axes, side, ("hip", "knee", "ankle"), posed)
         _pose_limb(pose, axes, side, ("shoulder", "elbow", "wrist", "hand"), posed)

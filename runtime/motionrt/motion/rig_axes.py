@@ -74,9 +74,7 @@ def _toe_sign(motion: RigPose) -> float:
         if f"{side}_foot" in motion.roles.joints:
             shank = motion.bone(f"{side}_ankle", f"{side}_knee")
             forward = normalise(np.cross(motion.across(), shank))
-            signs.append(
-                2 * float((normalise(motion.bone(f"{side}_ankle", f"{side}_foot")) * forward).sum(-1).mean())
-            )
+            signs.append(2 * float((normalise(motion.bone(f"{side}_ankle", f"{side}_foot")) * forward).sum(-1).mean()))
     return sum(signs) / max(len(signs) - 1, 1) / 2
 
 

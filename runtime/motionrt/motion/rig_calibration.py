@@ -147,9 +147,7 @@ def _align_foot(pose: RigPose, side: str, up: Array, out: Alignments) -> None:
     still = _resting(pose, side, up)
     if still.sum() >= 3:
         level = np.broadcast_to(up, bone.shape)
-        frames = np.where(
-            still[:, None, None], _matched((level, bone), (_Y, np.array([0.0, 0.0, 1.0]))), frames
-        )
+        frames = np.where(still[:, None, None], _matched((level, bone), (_Y, np.array([0.0, 0.0, 1.0]))), frames)
     weights = still.astype(np.float64) if still.sum() >= 3 else np.ones(len(bone))
     for role in (ankle, toe):
         out[pose.roles.joints[role]] = _mean_alignment(pose, pose.roles.joints[role], frames, weights)

@@ -85,9 +85,7 @@ def _settle(roles: dict[str, int], role: str, sources: list[tuple[int, int]], tr
     top = [joint for joint in best if all(other == joint or tree.is_above(joint, other) for other in best)]
     if not top:
         claims = ", ".join(f"'{tree.names[joint]}'" for joint in best)
-        raise RigError(
-            f"several joints could be {role}: {claims}; say which with mapping={{'{role}': '<joint name>'}}"
-        )
+        raise RigError(f"several joints could be {role}: {claims}; say which with mapping={{'{role}': '<joint name>'}}")
     roles[role] = top[0]
 
 

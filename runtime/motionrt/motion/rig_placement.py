@@ -65,9 +65,7 @@ def floor_offset(positions: Array, fps: float) -> float:
     """
     toes = positions[:, [SMPL24.index("left_foot"), SMPL24.index("right_foot")]]
     height = toes[..., 1]
-    speed = (
-        np.linalg.norm(np.gradient(toes, axis=0), axis=-1) * fps if len(toes) > 1 else np.zeros(height.shape)
-    )
+    speed = np.linalg.norm(np.gradient(toes, axis=0), axis=-1) * fps if len(toes) > 1 else np.zeros(height.shape)
     low = height < np.percentile(height.min(axis=1), 2) + _NEAR_FLOOR
     resting = low & (speed < _RESTING)
     floor = float(np.median(height[resting if resting.any() else low]))

@@ -78,9 +78,7 @@ def standing_axes(pose: RigPose) -> Array | None:
 def _stands(pose: RigPose, axes: Array) -> bool:
     left, up, forward = axes.T
     bones = [
-        normalise(-pose.bone(f"{s}_{a}", f"{s}_{b}"))
-        for s in _SIDES
-        for a, b in (("hip", "knee"), ("knee", "ankle"))
+        normalise(-pose.bone(f"{s}_{a}", f"{s}_{b}")) for s in _SIDES for a, b in (("hip", "knee"), ("knee", "ankle"))
     ]
     upright = [normalise(pose.trunk()) @ up > 0.86, *(bone @ up > 0.76 for bone in bones)]
     level = [normalise(pose.across(part)) @ left > 0.9 for part in ("hip", "shoulder")]
@@ -93,12 +91,7 @@ def _arms_known(pose: RigPose, axes: Array) -> bool:
     for side, outward in (("left", axes[:, 0]), ("right", -axes[:, 0])):
         upper = normalise(pose.bone(f"{side}_shoulder", f"{side}_elbow"))
         lower = normalise(pose.bone(f"{side}_elbow", f"{side}_wrist"))
-        if (
-            upper @ axes[:, 1] > 0.5
-            or upper @ outward < -0.2
-            or abs(upper @ axes[:, 2]) > 0.6
-            or upper @ lower < 0.4
-        ):
+        if upper @ axes[:, 1] > 0.5 or upper @ outward < -0.2 or abs(upper @ axes[:, 2]) > 0.6 or upper @ lower < 0.4:
             return False
     return True
 

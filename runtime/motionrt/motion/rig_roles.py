@@ -73,9 +73,7 @@ def _given_roles(tree: RigTree, mapping: Mapping[str, str]) -> dict[str, int]:
     roles = {}
     for role, name in mapping.items():
         if role not in SMPL24.names:
-            raise RigError(
-                f"mapping has the unknown key '{role}'; keys are smpl24 joints: {', '.join(SMPL24.names)}"
-            )
+            raise RigError(f"mapping has the unknown key '{role}'; keys are smpl24 joints: {', '.join(SMPL24.names)}")
         found = [joint for joint, other in enumerate(tree.names) if other == name]
         if len(found) != 1:
             near = get_close_matches(name, tree.names, n=5, cutoff=0.3) or list(tree.names)
@@ -170,9 +168,7 @@ def _trunk(tree: RigTree, roles: dict[str, int]) -> tuple[tuple[int, ...], tuple
         top = _unnamed_head(tree, chest, roles)
     neck = tree.path(chest, top) if top is not None else []
     if not neck:
-        raise RigError(
-            "the rig has neither head nor neck above its shoulders; name one with mapping={'head': ...}"
-        )
+        raise RigError("the rig has neither head nor neck above its shoulders; name one with mapping={'head': ...}")
     return tuple(spine), tuple(neck)
 
 

@@ -21,9 +21,7 @@ class RigTree:
         self.names: Sequence[str] = clip.names
         self.parents: Sequence[int] = clip.parents
         lengths = np.linalg.norm(np.asarray(clip.translations, dtype=np.float64), axis=-1)
-        self.lengths: Array = (
-            np.median(lengths, axis=0) if len(lengths) else np.linalg.norm(clip.offsets, axis=-1)
-        )
+        self.lengths: Array = np.median(lengths, axis=0) if len(lengths) else np.linalg.norm(clip.offsets, axis=-1)
         self.lengths[[joint for joint, parent in enumerate(self.parents) if parent < 0]] = 0
 
     def __len__(self) -> int:

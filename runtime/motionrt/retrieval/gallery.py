@@ -88,10 +88,7 @@ class Gallery:
         order = sorted(range(len(ids)), key=lambda i: ids[i])
         embedded = [embed_windows(model, motion_features(motions[i])) for i in order]
         clips = [Clip(ids[i], motions[i].duration, text=texts[i] if texts else None) for i in order]
-        spans = [
-            spans_in_seconds(frames, clip.duration_s)
-            for (_, frames), clip in zip(embedded, clips, strict=True)
-        ]
+        spans = [spans_in_seconds(frames, clip.duration_s) for (_, frames), clip in zip(embedded, clips, strict=True)]
         return cls(
             tuple(clips),
             np.concatenate([embeddings for embeddings, _ in embedded]),
@@ -142,10 +139,7 @@ class Gallery:
             found, scores = nearest_per_group(self._index, query, k, self.windows["clip"])
         else:
             found, scores = self._index.nearest(query, k)
-        return [
-            self._hit(rank, int(i), float(s))
-            for rank, (i, s) in enumerate(zip(found, scores, strict=True), 1)
-        ]
+        return [self._hit(rank, int(i), float(s)) for rank, (i, s) in enumerate(zip(found, scores, strict=True), 1)]
 
     def path(self, clip: Clip) -> Path | None:
         """The clip's file, ``None`` when it has none."""

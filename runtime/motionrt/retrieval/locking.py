@@ -49,6 +49,4 @@ def _lock(handle: int, folder: Path) -> None:
             fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except OSError as error:
         if error.errno in _BUSY:
-            raise GalleryError(
-                f"another process is writing to {folder}; try again when it has finished"
-            ) from error
+            raise GalleryError(f"another process is writing to {folder}; try again when it has finished") from error

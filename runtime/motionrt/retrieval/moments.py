@@ -83,9 +83,7 @@ def find_moments(
     return Moments(best, similarity_curve(spans, scores, len(features)))
 
 
-def pyramid(
-    frames: int, lengths: Sequence[int] = WINDOW_LENGTHS, stride: int = STRIDE
-) -> npt.NDArray[np.int64]:
+def pyramid(frames: int, lengths: Sequence[int] = WINDOW_LENGTHS, stride: int = STRIDE) -> npt.NDArray[np.int64]:
     """Windows ``(W, 2)`` of all lengths, first and last (exclusive) frame, short lengths first.
 
     The last window of a length ends with the motion. A motion shorter than the shortest length is one window.

@@ -54,17 +54,13 @@ def test_update_counts_what_changed(gallery: Path, run_json: Callable[..., Any])
     }  # fmt: skip
 
 
-def test_a_gallery_can_be_built_elsewhere(
-    library: Path, tmp_path: Path, run_json: Callable[..., Any]
-) -> None:
+def test_a_gallery_can_be_built_elsewhere(library: Path, tmp_path: Path, run_json: Callable[..., Any]) -> None:
     run_json("gallery", "build", library, "-o", tmp_path / "gal", "--jobs", 1)
     assert run_json("gallery", "info", tmp_path / "gal")["clips"] == 3
     assert not (library / ".motionrt-gallery").exists()
 
 
-def test_a_damaged_gallery_is_one_line_and_exit_code_one(
-    gallery: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_damaged_gallery_is_one_line_and_exit_code_one(gallery: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = next((gallery / ".motionrt-gallery").glob("embeddings-*"))
     content = bytearray(path.read_bytes())
     content[-1] ^= 1
@@ -76,9 +72,7 @@ def test_a_damaged_gallery_is_one_line_and_exit_code_one(
     assert err.count("\n") == 1
 
 
-def test_a_mapping_file_is_used_and_checked(
-    library: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_mapping_file_is_used_and_checked(library: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     mapping = tmp_path / "mapping.json"
     command = ["gallery", "build", str(library), "--mapping", str(mapping), "--jobs", "1"]
     mapping.write_text('{"left_knee": "left_knee"}', encoding="utf-8")

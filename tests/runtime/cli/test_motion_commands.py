@@ -13,9 +13,7 @@ from motionrt.cli import main
 from motionrt.cli.plot import BLOCKS, PLAIN, curve_lines
 
 
-def test_describe_prints_captions_of_a_file(
-    library: Path, tmp_path: Path, run_json: Callable[..., Any]
-) -> None:
+def test_describe_prints_captions_of_a_file(library: Path, tmp_path: Path, run_json: Callable[..., Any]) -> None:
     captions = tmp_path / "captions.txt"
     captions.write_text("geht\nspringt hoch\nsitzt\n", encoding="utf-8")
     found = run_json("describe", library / "long.npz", "--captions", captions, "-k", 2)
@@ -23,9 +21,7 @@ def test_describe_prints_captions_of_a_file(
     assert {row["text"] for row in found} < {"geht", "springt hoch", "sitzt"}
 
 
-def test_describe_has_a_table_and_captions_of_its_own(
-    library: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_describe_has_a_table_and_captions_of_its_own(library: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["describe", str(library / "walk.bvh"), "-k", "3"]) == 0
     assert len(capsys.readouterr().out.splitlines()) == 4
 

@@ -43,14 +43,10 @@ def test_saved_hits_are_bvh_files_of_the_found_spans(
     assert [path.name[:3] for path in saved] == ["001", "002", "003"]
     assert {path.suffix for path in saved} == {".bvh"}
     for path, hit in zip(saved, hits, strict=True):
-        assert load_motion(path, keep_first_frame=True).duration == pytest.approx(
-            hit["end"] - hit["start"], abs=0.06
-        )
+        assert load_motion(path, keep_first_frame=True).duration == pytest.approx(hit["end"] - hit["start"], abs=0.06)
 
 
-def test_no_gallery_there_names_the_command_to_build_one(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_no_gallery_there_names_the_command_to_build_one(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["retrieve", "walks", "--gallery", str(tmp_path)]) == 1
     out, err = capsys.readouterr()
     assert out == ""

@@ -86,9 +86,7 @@ def test_root_order_position_and_orientation_are_respected(tmp_path: Path) -> No
         pytest.param(lambda t: t.replace(" ", "\t") + "\n\n", id="tabs and blank lines"),
         pytest.param(lambda t: t.rstrip("\n"), id="no final newline"),
         pytest.param(lambda t: t.replace("2\nroot", "# half-way\n2\nroot"), id="comment between frames"),
-        pytest.param(
-            lambda t: t.replace("lfemur -90 0 0\nltibia 90", "ltibia 90\nlfemur -90 0 0"), id="order"
-        ),
+        pytest.param(lambda t: t.replace("lfemur -90 0 0\nltibia 90", "ltibia 90\nlfemur -90 0 0"), id="order"),
         pytest.param(lambda t: t.replace("\n2\n", "\n8\n").replace("\n1\n", "\n7\n"), id="counted from 7"),
         pytest.param(lambda t: t.replace(":DEGREES", ":degrees"), id="lower case keyword"),
         pytest.param(lambda t: t.replace("-90 0 0", "-9.0e1 0. +0"), id="exponents"),

@@ -75,9 +75,7 @@ def test_rate_comes_from_the_index_beside_or_above(tmp_path: Path, index_folder:
     assert find_fps(amc) == 60
 
 
-@pytest.mark.parametrize(
-    "index", ["name;rate\n16_03;60\n", "trial,fps\n16_04,60\n", "trial,fps\n16_03,\n", "\xff\0"]
-)
+@pytest.mark.parametrize("index", ["name;rate\n16_03;60\n", "trial,fps\n16_04,60\n", "trial,fps\n16_03,\n", "\xff\0"])
 def test_an_index_that_does_not_know_the_trial_is_ignored(tmp_path: Path, index: str) -> None:
     amc = write(tmp_path / "16_03.amc", AMC)
     write(tmp_path / "index.csv", index.encode("latin-1"))

@@ -45,9 +45,7 @@ def test_written_motion_loads_as_the_same_motion(tmp_path: Path) -> None:
 
 @settings(max_examples=40, deadline=None)
 @given(arrays(np.float64, (2, 24, 3), elements=st.floats(-4, 4, width=32)), st.floats(1, 240))
-def test_any_rotation_round_trips(
-    tmp_path_factory: pytest.TempPathFactory, vectors: np.ndarray, fps: float
-) -> None:
+def test_any_rotation_round_trips(tmp_path_factory: pytest.TempPathFactory, vectors: np.ndarray, fps: float) -> None:
     matrices = Rotation.from_rotvec(vectors.reshape(-1, 3)).as_matrix().reshape(2, 24, 3, 3)
     motion = Motion(matrices.astype(np.float32), np.zeros((2, 3), np.float32), fps)
     path = write_bvh(motion, tmp_path_factory.mktemp("bvh") / "clip.bvh")
@@ -116,9 +114,7 @@ def test_a_folder_that_does_not_exist_is_a_clear_error(tmp_path: Path) -> None:
         write_bvh(standing(), tmp_path / "nowhere" / "clip.bvh")
 
 
-def test_a_failed_write_leaves_the_old_file_and_no_litter(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_failed_write_leaves_the_old_file_and_no_litter(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = tmp_path / "clip.bvh"
     path.write_text("precious", encoding="utf-8")
 

@@ -95,9 +95,7 @@ def test_amc_and_bvh_of_one_subject_agree_in_bones_height_floor_and_side() -> No
     assert abs(floor["amc"]) < 5
 
 
-@pytest.mark.parametrize(
-    "name", ["bvh/02_01.bvh", "bvh/13_13.bvh", "bvh/131_01.bvh", "amc/16_17.amc", "amc/91_01.amc"]
-)
+@pytest.mark.parametrize("name", ["bvh/02_01.bvh", "bvh/13_13.bvh", "bvh/131_01.bvh", "amc/16_17.amc", "amc/91_01.amc"])
 def test_loaded_walks_are_upright_people_on_the_floor(name: str, tmp_path: Path) -> None:
     motion = load_motion(CMU / name)
     positions = motion.positions()

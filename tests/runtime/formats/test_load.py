@@ -67,9 +67,7 @@ def test_a_rig_that_is_no_humanoid_is_a_rig_error(tmp_path: Path) -> None:
         load_motion(write(tmp_path / "chain.bvh", BVH))
 
 
-def test_an_error_that_no_reader_foresaw_still_names_the_file(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_an_error_that_no_reader_foresaw_still_names_the_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def surprise(*_: object, **__: object) -> None:
         raise IndexError("list index out of range")
 

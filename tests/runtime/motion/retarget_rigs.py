@@ -24,8 +24,7 @@ def person(frames: int = 60, fps: float = 30.0, seed: int = 0) -> Motion:
     swing = np.sin(2 * np.pi * 0.9 * time)
     lift = np.maximum(np.cos(2 * np.pi * 0.9 * time), 0), np.maximum(-np.cos(2 * np.pi * 0.9 * time), 0)
     vectors = {
-        name: rng.normal(0, 0.05, 3) + np.zeros((frames, 3))
-        for name in ("spine1", "spine2", "spine3", "neck", "head")
+        name: rng.normal(0, 0.05, 3) + np.zeros((frames, 3)) for name in ("spine1", "spine2", "spine3", "neck", "head")
     }
     for side, sign, bend in (("left", 1, lift[0]), ("right", -1, lift[1])):
         vectors[f"{side}_hip"] = np.outer(-sign * 0.5 * swing, [1, 0, 0])
@@ -49,9 +48,7 @@ def person(frames: int = 60, fps: float = 30.0, seed: int = 0) -> Motion:
     return Motion(rotations.astype(np.float32), root.astype(np.float32), fps)
 
 
-def renamed(
-    pattern: dict[str, str], sides: tuple[str, str] = ("Left", "Right"), **middle: str
-) -> dict[str, str]:
+def renamed(pattern: dict[str, str], sides: tuple[str, str] = ("Left", "Right"), **middle: str) -> dict[str, str]:
     """smpl24 name -> rig name: ``pattern`` gives the sided parts with ``{}`` for the side, ``middle`` the
     others.
     """

@@ -80,9 +80,7 @@ def test_a_meaningless_rest_pose_is_calibrated_from_the_motion(up: str | None) -
     error[..., 1] -= np.median(error[:, 0, 1])
     assert np.linalg.norm(error[:, limbs], axis=-1).max() < 0.01
     assert np.linalg.norm(error, axis=-1).max() < 0.06
-    turn = Rotation.from_matrix(
-        np.swapaxes(found.global_rotations()[:, 0], 1, 2) @ truth.global_rotations()[:, 0]
-    )
+    turn = Rotation.from_matrix(np.swapaxes(found.global_rotations()[:, 0], 1, 2) @ truth.global_rotations()[:, 0])
     assert np.rad2deg(turn.magnitude().max()) < 3
 
 
@@ -220,9 +218,7 @@ def test_a_head_upside_down_follows_the_neck() -> None:
     rotations = clip.rotations.copy()
     rotations[5:9, clip.names.index("head")] = np.diag([-1, -1, 1])
     found = to_smpl24(replace(clip, rotations=rotations))
-    np.testing.assert_allclose(
-        found.rotations[5:9, SMPL24.index("head")], np.tile(np.eye(3), (4, 1, 1)), atol=1e-5
-    )
+    np.testing.assert_allclose(found.rotations[5:9, SMPL24.index("head")], np.tile(np.eye(3), (4, 1, 1)), atol=1e-5)
     np.testing.assert_allclose(found.rotations[20:, 15], truth.rotations[20:, 15], atol=1e-4)
 
 

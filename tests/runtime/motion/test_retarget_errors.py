@@ -39,9 +39,7 @@ def test_one_joint_is_no_humanoid() -> None:
 
 
 def test_missing_legs_are_named() -> None:
-    names = {
-        joint: name for joint, name in NAMES.items() if not joint.endswith(("hip", "knee", "ankle", "foot"))
-    }
+    names = {joint: name for joint, name in NAMES.items() if not joint.endswith(("hip", "knee", "ankle", "foot"))}
     with pytest.raises(RigError, match=r"left_hip, right_hip, left_knee.*mapping="):
         to_smpl24(rig(person(4), names))
 
@@ -84,9 +82,7 @@ def test_a_mapping_settles_two_claims() -> None:
 
 
 def test_a_mapping_to_an_unknown_rig_joint_lists_near_names() -> None:
-    with pytest.raises(
-        RigError, match=r"mapping\['left_knee'\]: the rig has no joint 'L_kne'; it has L_knee"
-    ):
+    with pytest.raises(RigError, match=r"mapping\['left_knee'\]: the rig has no joint 'L_kne'; it has L_knee"):
         to_smpl24(rig(person(4), NAMES), mapping={"left_knee": "L_kne"})
 
 
@@ -98,9 +94,7 @@ def test_a_mapping_of_an_unknown_role_lists_the_roles() -> None:
 def test_legs_without_length_are_an_error() -> None:
     clip = rig(person(4), NAMES)
     flat = np.array([0 if "knee" in name or "ankle" in name else 1 for name in clip.names])[:, None]
-    squashed = replace(
-        clip, offsets=clip.offsets * flat, translations=clip.translations * flat.astype(np.float32)
-    )
+    squashed = replace(clip, offsets=clip.offsets * flat, translations=clip.translations * flat.astype(np.float32))
     with pytest.raises(RigError, match="no length"):
         to_smpl24(squashed)
 

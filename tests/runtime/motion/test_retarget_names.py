@@ -17,9 +17,7 @@ MIXAMO = "{}UpLeg {}Leg {}Foot {}ToeBase {}Shoulder {}Arm {}ForeArm {}Hand {}Han
 MIXAMO_SPINE = "Hips Spine Spine1 Spine2 Neck Head"
 
 
-def convention(
-    limbs: str, spine: str, sides: tuple[str, str] = ("Left", "Right"), prefix: str = ""
-) -> dict[str, str]:
+def convention(limbs: str, spine: str, sides: tuple[str, str] = ("Left", "Right"), prefix: str = "") -> dict[str, str]:
     """smpl24 name -> rig name: nine limb joints, hip to hand, ``{}`` for the side; then pelvis to head."""
     names = renamed(named(*limbs.split()), sides, **dict(zip(SPINE, spine.split(), strict=True)))
     return {joint: prefix + name.replace("~", " ") for joint, name in names.items()}
@@ -255,9 +253,7 @@ def test_a_root_above_the_hips_may_carry_the_travel() -> None:
     )
     below = replace(
         stage,
-        translations=np.where(
-            np.arange(25)[:, None] < 2, translations[:, [1, 0, *range(2, 25)]], translations
-        ),
+        translations=np.where(np.arange(25)[:, None] < 2, translations[:, [1, 0, *range(2, 25)]], translations),
     )
     for moved in (stage, below):
         found = to_smpl24(moved)

@@ -85,9 +85,7 @@ def test_the_figure_stands_on_the_floor_at_human_height(rig: str) -> None:
     assert 1.3 < np.median(at(motion, "head")[:, 1]) < 1.75
 
 
-@pytest.mark.parametrize(
-    "rig", [rig for rig in RECORDINGS if rig not in ("131", "16")]
-)  # a dance, jumps on the spot
+@pytest.mark.parametrize("rig", [rig for rig in RECORDINGS if rig not in ("131", "16")])  # a dance, jumps on the spot
 def test_it_goes_forward(rig: str) -> None:
     _, motion = recording(rig)
     across = at(motion, "left_hip") - at(motion, "right_hip")

@@ -161,9 +161,7 @@ def test_a_killed_build_leaves_the_old_gallery_and_no_lock(folder: Path) -> None
     assert update_gallery(folder, open_fake).changed == ("long.bvh",)
 
 
-def test_a_failure_while_writing_leaves_the_old_gallery(
-    folder: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_failure_while_writing_leaves_the_old_gallery(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     build_gallery(folder, open_fake)
     clips = Gallery.open(folder).clips
     save_motion(walking(44), folder / "long.bvh")

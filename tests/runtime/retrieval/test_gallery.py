@@ -101,9 +101,7 @@ def test_the_embeddings_are_mapped_not_read(gallery: Gallery, tmp_path: Path) ->
     assert isinstance(base, np.memmap)
 
 
-def test_stored_motions_come_back_cut_to_the_hit(
-    gallery: Gallery, model: FakeEmbedder, tmp_path: Path
-) -> None:
+def test_stored_motions_come_back_cut_to_the_hit(gallery: Gallery, model: FakeEmbedder, tmp_path: Path) -> None:
     opened = gallery.save(tmp_path)
     hit = opened.search(model.embed_motion([motion_features(MOTIONS["long"])[100:300]])[0], k=1)[0]
     part = opened.motion(hit)
@@ -131,9 +129,7 @@ def test_ids_must_be_as_many_and_different(ids: list[str], model: FakeEmbedder) 
 
 def test_another_models_gallery_is_refused_and_both_are_named(gallery: Gallery) -> None:
     gallery.check_model("f" * 64, "fake")
-    with pytest.raises(
-        GalleryError, match=r"made by the model fake \(ffffffffffff\), not by new \(000000000000\)"
-    ):
+    with pytest.raises(GalleryError, match=r"made by the model fake \(ffffffffffff\), not by new \(000000000000\)"):
         gallery.check_model("0" * 64, "new")
 
 

@@ -23,9 +23,7 @@ from motionrt.retrieval.windows import spans_in_seconds
         (450, [(0, 200), (100, 300), (200, 400), (250, 450)]),
     ],
 )
-def test_windows_of_ten_seconds_every_five_and_one_at_the_end(
-    frames: int, expected: list[tuple[int, int]]
-) -> None:
+def test_windows_of_ten_seconds_every_five_and_one_at_the_end(frames: int, expected: list[tuple[int, int]]) -> None:
     assert window_spans(frames) == expected
 
 

@@ -22,7 +22,8 @@ _SWAPS = {
 # "right away", "right angle" and "left the room" name no side.
 _NO_SIDE = re.compile(r"\bright (?:away|angles?)\b|\bleft the (?:room|house|area|scene|ground|floor)\b", re.IGNORECASE)
 _SIDED = re.compile(
-    r"\b(?:counter-|anti-)?(?:clockwise|counterclockwise|anticlockwise|(?:left|right)(?:wards?|y)?)\b", re.IGNORECASE)
+    r"\b(?:counter-|anti-)?(?:clockwise|counterclockwise|anticlockwise|(?:left|right)(?:wards?|y)?)\b", re.IGNORECASE
+)
 
 
 def mirror_text(text: str) -> str:

@@ -45,9 +45,7 @@ def encode_ragged(layers: nn.ModuleList, x: Tensor, mask: Tensor) -> tuple[Tenso
     return x[:, 0], x[:, 1]
 
 
-def decode_ragged(
-    layers: nn.ModuleList, x: Tensor, latent: Tensor, mask: Tensor, project: nn.Module
-) -> Tensor:
+def decode_ragged(layers: nn.ModuleList, x: Tensor, latent: Tensor, mask: Tensor, project: nn.Module) -> Tensor:
     """Decoder layers and output projection over x (B, T, d) -> (B, T, out), zeros where the mask is False."""
     ragged = Ragged(mask, latent.dtype)
     x = ragged.pack(x)

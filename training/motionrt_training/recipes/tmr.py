@@ -57,9 +57,7 @@ def parser() -> argparse.ArgumentParser:
     result = argparse.ArgumentParser(description="Train TMR, or release a trained checkpoint.")
     result.add_argument("--corpus", type=Path, help="packed corpus (.npz)")
     result.add_argument("--out", type=Path, help="folder of the run")
-    result.add_argument(
-        "--backbone", default="minilm", choices=("onnx", "minilm", "hf"), help="text backbone"
-    )
+    result.add_argument("--backbone", default="minilm", choices=("onnx", "minilm", "hf"), help="text backbone")
     result.add_argument("--backbone-path", type=Path, help="file (onnx) or folder (hf) of the backbone")
     result.add_argument("--cache", type=Path, help="folder of text features (default: beside the corpus)")
     result.add_argument("--release", type=Path, help="best.pt to release; nothing is trained")
