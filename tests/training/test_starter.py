@@ -66,6 +66,7 @@ def test_training_lowers_the_held_out_loss_and_its_checkpoint_makes_a_gallery(
     monkeypatch.setattr(starter, "PROMPTS", prompts)
     monkeypatch.setattr(starter, "Runtime", lambda: Runtime(TINY))
     monkeypatch.setattr(starter, "FARTHEST", np.inf)
+    monkeypatch.setattr(starter, "RECOGNISED", -1.0)
     monkeypatch.setattr(starter, "_between_floor_and_ceiling", lambda motion: True)
     gallery = starter.make(tmp_path / "run/best.pt", tmp_path / "gallery", candidates=2)
     assert {clip.id: clip.text for clip in gallery.clips} == {
@@ -78,7 +79,17 @@ def test_training_lowers_the_held_out_loss_and_its_checkpoint_makes_a_gallery(
 def test_roll_outs_that_leave_the_range_of_human_poses_are_dropped() -> None:
     network = Continuation(width=16, blocks=1).eval()
     torch.nn.init.constant_(network.out.bias, 100.0)
-    assert starter.best_of(network, Runtime(TINY).model, "a person walks", 20, candidates=3, seed=0) is None
+    assert starter.roll_outs(network, Runtime(TINY).model, "a person walks", 20, candidates=3, seed=0) == []
+
+
+def test_the_best_motion_is_the_nearest_to_the_text_and_none_when_nothing_fits(monkeypatch: pytest.MonkeyPatch) -> None:
+    model, motions = Runtime(TINY).model, [walking(40), walking(40, turn=2.0), walking(40, speed=4.0)]
+    fits = model.embed_motion([guo263.encode(motion.grounded()) for motion in motions]) @ model.embed_text(["walk"])[0]
+    monkeypatch.setattr(starter, "RECOGNISED", float(fits.max()) - 1e-3)
+    assert starter.best_of(motions, model, "walk") is motions[int(np.argmax(fits))]
+    monkeypatch.setattr(starter, "RECOGNISED", float(fits.max()) + 1e-3)
+    assert starter.best_of(motions, model, "walk") is None
+    assert starter.best_of([], model, "walk") is None
 
 
 def test_the_starter_gallery_can_be_embedded_again_in_place(tmp_path: Path) -> None:

@@ -6,7 +6,8 @@
 A text does not say at which foot a walk starts, so the decoder of TMR, which maps a text to all frames at once, gives
 the average of all phases. The model here continues the last frames instead, so that a gait, once begun, goes on. TMR's
 decoder gives the first pose; of several roll-outs the one whose embedding is nearest to the prompt's is kept, and none
-that leaves the range of human poses. (The last checkpoint moves more than the one with the lowest held-out loss.)
+that leaves the range of human poses or that the motion encoder does not recognise. (The last checkpoint moves more than
+the one with the lowest held-out loss.)
 """
 
 from __future__ import annotations
@@ -37,6 +38,7 @@ from motionrt_training.trainer import Schedule, Trainer
 
 FARTHEST = 12.0  # standard deviations from the mean that a feature may have
 HIGHEST, LOWEST = 2.6, -0.25  # metres
+RECOGNISED = 0.5  # least cosine of motion and prompt
 PROMPTS = Path(__file__).with_name("starter_prompts.txt")
 
 
@@ -143,29 +145,33 @@ def make(checkpoint: Path, folder: Path, *, candidates: int = 32, warm_up: int =
     model = Runtime().model
     motions, texts = [], []
     for index, (seconds, text) in enumerate(read_prompts(PROMPTS)):
-        frames = round(seconds * guo263.FPS)
-        best = best_of(network, model, text, frames + warm_up, candidates, index)
+        made = roll_outs(network, model, text, round(seconds * guo263.FPS) + warm_up, candidates, index)
+        best = best_of([motion[warm_up:].canonical() for motion in made], model, text)
         if best is not None:
-            motions.append(best[warm_up:].canonical())
+            motions.append(best)
             texts.append(text)
     ids = [re.sub(r"[^a-z0-9]+", "-", text.lower()).strip("-") for text in texts]
     return Gallery.from_motions(motions, ids, model, texts=texts).save(folder)
 
 
-def best_of(
+def roll_outs(
     network: Continuation, model: TextMotionModel, text: str, frames: int, candidates: int, seed: int
-) -> Motion | None:
-    """Of ``candidates`` roll-outs, begun at TMR's pose with noise, the plausible one that fits the text best."""
+) -> list[Motion]:
+    """Roll-outs that begin at TMR's pose for the text with noise, those that stay in the range of human poses."""
     latent = model.text_latents([text])
     pose = torch.from_numpy(model.decode(latent, network.history)[0, :, :POSE])
     noise = torch.randn((candidates, network.history, POSE), generator=torch.Generator().manual_seed(seed))
     made = network.roll_out(pose + 0.3 * noise * network.std, torch.from_numpy(latent).expand(candidates, -1), frames)
     inside = (((made - network.mean) / network.std).abs() < FARTHEST).flatten(1).all(1)
-    motions = [motion for motion in map(_motion, made[inside].numpy()) if _between_floor_and_ceiling(motion)]
+    return [motion for motion in map(_motion, made[inside].numpy()) if _between_floor_and_ceiling(motion)]
+
+
+def best_of(motions: Sequence[Motion], model: TextMotionModel, text: str) -> Motion | None:
+    """The motion that fits the text best, if any fits it."""
     if not motions:
         return None
     fits = model.embed_motion([guo263.encode(motion.grounded()) for motion in motions]) @ model.embed_text([text])[0]
-    return motions[int(np.argmax(fits))]
+    return motions[int(np.argmax(fits))] if fits.max() >= RECOGNISED else None
 
 
 def _between_floor_and_ceiling(motion: Motion) -> bool:
