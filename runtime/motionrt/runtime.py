@@ -16,6 +16,7 @@ from motionrt.motion import Motion
 from motionrt.motion.skeleton import FloatArray
 from motionrt.retrieval import (
     GALLERY_FILE,
+    WINDOW_LENGTHS,
     BuildReport,
     Description,
     EmbeddedCaptions,
@@ -153,10 +154,13 @@ class Runtime:
             return ready
         return EmbeddedCaptions(texts, self.model.embed_text(texts), self.model.fingerprint)
 
-    def moments(self, text: str, motion: MotionLike, k: int = 5) -> Moments:
-        """Where in a motion a text happens: the best spans of 0.5 to 3 s, and the similarity over time."""
+    def moments(self, text: str, motion: MotionLike, k: int = 5, *, lengths: Sequence[int] = WINDOW_LENGTHS) -> Moments:
+        """Where in a motion a text happens: the best spans, and the similarity over time.
+
+        ``lengths`` are those of the sliding windows, in frames at 20 fps; by default 10 to 60 (0.5 to 3 s).
+        """
         query = self.embed_text(text)
-        return find_moments(query, motion_features(_loaded(motion)), self.model, k)
+        return find_moments(query, motion_features(_loaded(motion)), self.model, k, lengths=lengths)
 
     def embed_text(self, text: str | Sequence[str]) -> FloatArray:
         """Unit vector ``(256,)`` of a text, or ``(N, 256)`` of a list."""

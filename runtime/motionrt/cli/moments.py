@@ -12,7 +12,8 @@ from motionrt.cli.options import add_json, add_mapping, add_models, command, rea
 from motionrt.cli.plot import curve_lines
 
 HELP = """find the moments of a long motion that fit a text
-Windows of 0.5 to 3 s slide over the motion; spans that repeat a better one are left out."""
+Windows of 0.5 to 3 s slide over the motion; spans that repeat a better one are left out.
+Actions that last longer are found better with longer windows: --windows 100,150,200"""
 
 
 def add(commands: Any) -> None:
@@ -21,6 +22,12 @@ def add(commands: Any) -> None:
     parser.add_argument("text", help="a sentence, as in 'a person turns around'")
     parser.add_argument("clip", type=Path, help="a motion file (.bvh, .amc, .npz)")
     parser.add_argument("-k", type=int, default=5, metavar="N", help="how many moments at most (default: 5)")
+    parser.add_argument(
+        "--windows",
+        type=_frames,
+        metavar="FRAMES",
+        help="lengths of the windows at 20 fps (default: 10,20,30,40,50,60)",
+    )
     parser.add_argument("--plot", action="store_true", help="draw the similarity over time")
     add_mapping(parser)
     add_json(parser)
@@ -32,7 +39,8 @@ def run(arguments: argparse.Namespace) -> int:
     from motionrt.formats import load_motion
 
     motion = load_motion(arguments.clip, mapping=read_mapping(arguments.mapping))
-    found = runtime(arguments).moments(arguments.text, motion, arguments.k)
+    lengths = {"lengths": arguments.windows} if arguments.windows else {}
+    found = runtime(arguments).moments(arguments.text, motion, arguments.k, **lengths)
     if arguments.json:
         print_json(
             [
@@ -54,3 +62,13 @@ def run(arguments: argparse.Namespace) -> int:
         for line in curve_lines(found.curve.tolist(), found.fps, best[:1], stream.encoding):
             print(line, file=stream)
     return 0
+
+
+def _frames(text: str) -> tuple[int, ...]:
+    try:
+        lengths = tuple(int(part) for part in text.split(","))
+    except ValueError:
+        lengths = ()
+    if not lengths or min(lengths) < 1:
+        raise argparse.ArgumentTypeError(f"expected numbers of frames from 1 with commas between them, not '{text}'")
+    return lengths

@@ -5,7 +5,7 @@ from motionrt.retrieval.build import build_gallery, update_gallery
 from motionrt.retrieval.captions import EmbeddedCaptions, checked_captions, read_captions
 from motionrt.retrieval.describe import Description, describe
 from motionrt.retrieval.gallery import Gallery
-from motionrt.retrieval.moments import Moment, Moments, find_moments
+from motionrt.retrieval.moments import WINDOW_LENGTHS, Moment, Moments, find_moments
 from motionrt.retrieval.records import Clip, Skipped
 from motionrt.retrieval.search import ExactIndex, Hit, VectorIndex
 from motionrt.retrieval.store import GALLERY_FILE, locate
@@ -13,6 +13,7 @@ from motionrt.retrieval.windows import embed_whole, motion_features, window_span
 
 __all__ = [
     "GALLERY_FILE",
+    "WINDOW_LENGTHS",
     "BuildReport",
     "Clip",
     "Description",

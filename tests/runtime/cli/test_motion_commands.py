@@ -32,6 +32,16 @@ def test_moments_are_spans_in_seconds(library: Path, run_json: Callable[..., Any
     assert all(0 <= row["start"] < row["end"] <= 15 for row in found)
 
 
+def test_moments_have_the_lengths_of_the_windows_that_were_asked_for(
+    library: Path, run_json: Callable[..., Any], capsys: pytest.CaptureFixture[str]
+) -> None:
+    found = run_json("moments", "jump", library / "long.npz", "--windows", "100,140")
+    assert {round(row["end"] - row["start"], 2) for row in found} <= {5.0, 7.0}
+    for wrong in ("0", "ten", ""):
+        assert main(["moments", "jump", str(library / "long.npz"), "--windows", wrong]) == 2
+        assert "numbers of frames" in capsys.readouterr().err
+
+
 def test_the_plot_follows_the_table_and_stays_out_of_json(
     library: Path, capsys: pytest.CaptureFixture[str], run_json: Callable[..., Any]
 ) -> None:

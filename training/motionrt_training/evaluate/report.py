@@ -92,9 +92,10 @@ _MOMENTS = """## Moments in long recordings
 
 Every test trial that its annotation cuts into two or more segments is searched with one sentence for each
 segment; accuracy is the share of queries whose best span overlaps the segment by at least the given temporal
-IoU. Segments last 6 s on average, so windows of at most 3 s (60 frames) cannot reach high overlap; the second
-setting adds longer windows. The rows with the text of another segment of the same trial show what the length of
-the windows alone brings."""
+IoU. Segments last 6 s on average, so windows of at most 3 s (60 frames) cannot reach high overlap, and the encoder
+was trained on crops of 1 s and more, most of them longer than 3 s; the second setting (`motionrt moments
+--windows 100,120,140,160,180,200`) looks for spans of 5 to 10 s. The rows with the text of another segment of
+the same trial show what the length of the windows alone brings."""
 
 _PAPER = """## For orientation: the paper
 
