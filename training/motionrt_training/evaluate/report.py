@@ -99,5 +99,5 @@ the same trial show what the length of the windows alone brings."""
 
 _PAPER = """## For orientation: the paper
 
-Petrovich et al. 2023, tables 1 and 2. Other data (HumanML3D, KIT-ML), far larger test sets: not comparable in
-absolute terms."""
+Petrovich et al. 2023, tables 1 and 2, copied without the paper at hand: look them up there before citing them.
+Other data (HumanML3D, KIT-ML), far larger test sets: not comparable in absolute terms."""
