@@ -87,5 +87,3 @@ TMR_TEXT = GraphSpec(
 )
 TMR_MOTION = GraphSpec("tmr_motion", (_MOTION, _FRAME_MASK), (_EMBEDDING, _LATENT), "frames", "mask", ("embedding",))
 TMR_DECODER = GraphSpec("tmr_decoder", (_LATENT, _FRAME_MASK), (_MOTION,), "frames", "mask", ())
-
-GRAPHS: tuple[GraphSpec, ...] = (SENTENCE_ENCODER, TMR_TEXT, TMR_MOTION, TMR_DECODER)

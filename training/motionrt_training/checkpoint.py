@@ -64,10 +64,14 @@ def load_any(path: str | Path) -> TMR:
     """A released `.safetensors`, or the averaged weights of a trainer's `best.pt`, in evaluation mode."""
     if Path(path).suffix == ".safetensors":
         return load_release(path)[0]
-    state = load_state(path)
+    return trained_model(load_state(path)).eval()
+
+
+def trained_model(state: Mapping[str, Any]) -> TMR:
+    """The network that a trainer's checkpoint of TMR holds."""
     model = TMR(**state["notes"]["network"])
     model.load_state_dict(state["model"])
-    return model.eval()
+    return model
 
 
 def _half(value: Tensor) -> Tensor:

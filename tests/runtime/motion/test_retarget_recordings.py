@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 
-from motionrt.formats.asf_amc import read_amc
+from motionrt.formats.amc import read_amc
 from motionrt.formats.bvh import read_bvh
 from motionrt.formats.leading_pose import drop_leading_tpose
 from motionrt.motion import SMPL24, Motion, RigClip

@@ -10,6 +10,7 @@ import argparse
 from pathlib import Path
 
 from motionrt.models import TextMotionModel
+from motionrt.retrieval import WINDOW_LENGTHS
 from motionrt_training.corpora.cmu import read_cmu
 from motionrt_training.evaluate.embedders import load_torch
 from motionrt_training.evaluate.moments import evaluate_moments
@@ -17,7 +18,6 @@ from motionrt_training.evaluate.pairs import read_pairs
 from motionrt_training.evaluate.protocols import evaluate
 from motionrt_training.evaluate.report import MomentLine, Report, Result
 
-PAPER_WINDOWS = (10, 20, 30, 40, 50, 60)
 LONG_WINDOWS = (100, 120, 140, 160, 180, 200)
 
 
@@ -41,7 +41,7 @@ def _variants(args: argparse.Namespace) -> list[tuple[str, TextMotionModel]]:
 def _moments(args: argparse.Namespace, model: TextMotionModel) -> list[MomentLine]:
     corpus = read_cmu(args.recordings).split("test")
     lines = []
-    for name, windows in (("10-60 frames (the paper's)", PAPER_WINDOWS), ("100-200 frames", LONG_WINDOWS)):
+    for name, windows in (("10-60 frames (the paper's)", WINDOW_LENGTHS), ("100-200 frames", LONG_WINDOWS)):
         for chance in (False, True):
             label = f"{name}, text of another segment" if chance else name
             lines.append(MomentLine(label, evaluate_moments(model, corpus, windows, chance=chance)))

@@ -11,7 +11,7 @@ import torch
 
 from motionrt.models import SentenceEncoder
 from motionrt.motion.skeleton import FloatArray
-from motionrt_training.checkpoint import load_state
+from motionrt_training.checkpoint import load_state, trained_model
 from motionrt_training.networks.tmr import TMR
 
 
@@ -46,9 +46,7 @@ class TorchEmbedder:
 def load_torch(checkpoint: str | Path, sentences: SentenceEncoder) -> tuple[TorchEmbedder, int]:
     """The averaged weights of a training's checkpoint (``last.pt`` or ``best.pt``), and the steps that it took."""
     state = load_state(checkpoint)
-    model = TMR(**state["notes"]["network"])
-    model.load_state_dict(state["model"])
-    return TorchEmbedder(model, sentences), int(state["step"])
+    return TorchEmbedder(trained_model(state), sentences), int(state["step"])
 
 
 def _stacked(rows: list[torch.Tensor]) -> FloatArray:

@@ -14,9 +14,9 @@ from pathlib import Path
 import numpy as np
 
 from motionrt.metrics import localisation_accuracy, temporal_iou
-from motionrt.motion.features import guo263
 from motionrt.motion.skeleton import FloatArray
 from motionrt.retrieval.moments import find_moments
+from motionrt.retrieval.windows import motion_features
 from motionrt_training.corpora import Clip, MotionCorpus
 from motionrt_training.evaluate.embedders import Embedder
 
@@ -41,7 +41,7 @@ def evaluate_moments(
     found, truth = [], []
     recordings = _long_recordings(corpus)
     for path, segments in recordings.items():
-        features = guo263.encode(corpus.loader(path).resample(guo263.FPS))
+        features = motion_features(corpus.loader(path))
         captions = [clip.texts[style % len(clip.texts)] for clip in segments]
         shift, windows = int(chance), _Remembering(embedder)
         for clip, text in zip(segments, embedder.embed_text(captions[shift:] + captions[:shift]), strict=True):

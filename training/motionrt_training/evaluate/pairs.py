@@ -9,9 +9,8 @@ import numpy as np
 
 from motionrt.errors import InvalidInputError
 from motionrt.motion.skeleton import FloatArray
+from motionrt.retrieval.windows import WINDOW_FRAMES
 from motionrt_training.packed import load_packed
-
-MAX_FRAMES = 200  # 10 s at 20 fps: the longest window that the encoders see
 
 
 @dataclass(frozen=True)
@@ -36,5 +35,5 @@ def read_pairs(path: str | Path, split: str) -> PairSet:
     clips = corpus.split(split)
     if not clips:
         raise InvalidInputError(f"{path} has no clips in split '{split}'")
-    motions = tuple(corpus.motion(clip)[:MAX_FRAMES].astype(np.float32) for clip in clips)
+    motions = tuple(corpus.motion(clip)[:WINDOW_FRAMES].astype(np.float32) for clip in clips)
     return PairSet(tuple(clip.id for clip in clips), motions, tuple(clip.texts for clip in clips))

@@ -30,6 +30,7 @@ from motionrt.models import TextMotionModel
 from motionrt.motion import Motion
 from motionrt.motion.features import guo263
 from motionrt.motion.skeleton import FloatArray
+from motionrt.retrieval import motion_features
 from motionrt_training.checkpoint import load_state
 from motionrt_training.networks.continuation import POSE, Continuation
 from motionrt_training.options import add_options, from_namespace, option
@@ -170,7 +171,7 @@ def best_of(motions: Sequence[Motion], model: TextMotionModel, text: str) -> Mot
     """The motion that fits the text best, if any fits it."""
     if not motions:
         return None
-    fits = model.embed_motion([guo263.encode(motion.grounded()) for motion in motions]) @ model.embed_text([text])[0]
+    fits = model.embed_motion([motion_features(motion) for motion in motions]) @ model.embed_text([text])[0]
     return motions[int(np.argmax(fits))] if fits.max() >= RECOGNISED else None
 
 

@@ -17,8 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from motionrt_training.backbones import open_backbone
-from motionrt_training.checkpoint import load_state, save_release
-from motionrt_training.networks.tmr import TMR
+from motionrt_training.checkpoint import load_state, save_release, trained_model
 from motionrt_training.options import add_options, from_namespace
 from motionrt_training.packed import load_packed
 from motionrt_training.text_cache import cached_features
@@ -45,11 +44,9 @@ def train(args: argparse.Namespace) -> dict[str, float]:
 def release(source: Path, target: Path, command: str | None = None) -> None:
     """Averaged weights of a trainer's checkpoint -> float16 safetensors with how they came to be."""
     state: dict[str, Any] = load_state(source)
-    model = TMR(**state["notes"]["network"])
-    model.load_state_dict(state["model"])
     facts = {name: state[name] for name in ("seed", "measures", "notes")} | ({"command": command} if command else {})
     facts |= {"recipe": "tmr", "steps": state["step"], "minutes": state["elapsed"] / 60}
-    save_release(model, target, facts)
+    save_release(trained_model(state), target, facts)
 
 
 def parser() -> argparse.ArgumentParser:

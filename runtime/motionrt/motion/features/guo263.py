@@ -22,7 +22,7 @@ import numpy.typing as npt
 from motionrt.motion.features.checks import checked_features
 from motionrt.motion.kinematics import global_to_local
 from motionrt.motion.motion import Motion
-from motionrt.motion.rotations import Array, axis_rotation, matrix_from_6d, matrix_to_6d
+from motionrt.motion.rotations import Array, axis_rotation, matrix_from_6d, matrix_to_6d, project_to_so3
 from motionrt.motion.skeleton import SMPL22_JOINTS, SMPL24, FloatArray
 from motionrt.motion.transforms import heading
 
@@ -114,9 +114,7 @@ def _pelvis_tilt(x: FloatArray) -> Array:
     local = x[:, POSITIONS].reshape(len(x), SMPL22_JOINTS - 1, 3)[:, [j - 1 for j in _PELVIS_CHILDREN]]
     local = local - x[:, None, HEIGHT, None] * np.array([0, 1, 0], dtype=np.float32)
     covariance = np.einsum("fji,jk->fik", local.astype(np.float64), SMPL24.offsets[list(_PELVIS_CHILDREN)])
-    u, _, vt = np.linalg.svd(covariance)
-    u[..., :, 2] *= np.sign(np.linalg.det(u @ vt))[..., None]
-    return np.asarray(u @ vt, dtype=np.float32)
+    return np.asarray(project_to_so3(covariance), dtype=np.float32)
 
 
 def _heading_rotations(motion: Motion, to_heading: Array) -> Array:

@@ -31,5 +31,5 @@ def decode(features: FloatArray, fps: float = FPS) -> Motion:
     x = checked_features(features, WIDTH)
     rotations = np.tile(np.eye(3, dtype=np.float32), (len(x), len(SMPL24), 1, 1))
     rotations[:, :SMPL22_JOINTS] = matrix_from_6d(x[:, ROTATIONS].reshape(len(x), SMPL22_JOINTS, 6))
-    root = np.stack([x[:, 132], x[:, 134], x[:, 133]], axis=1)
-    return Motion(rotations, root, fps)
+    planar, height = x[:, TRAJECTORY], x[:, HEIGHT]
+    return Motion(rotations, np.concatenate([planar[:, :1], height, planar[:, 1:]], axis=1), fps)
