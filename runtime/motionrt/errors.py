@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 
 
@@ -60,3 +61,31 @@ class GalleryError(MotionRTError, ValueError):
 
 class GalleryNotFoundError(MotionRTError, FileNotFoundError):
     """There is no gallery in that folder; the message gives the command that builds one."""
+
+
+class SceneError(MotionRTError, ValueError):
+    """A scene cannot be built: an unreadable mesh or map, nothing walkable in it; the message says which and why."""
+
+
+class PathError(MotionRTError, ValueError):
+    """There is no way through a scene; the message says what blocks it."""
+
+
+class ReachError(MotionRTError, ValueError):
+    """No human pose meets the keypoints.
+
+    Attributes:
+        miss_cm: by how many centimetres each keypoint is missed, by joint name.
+    """
+
+    def __init__(self, message: str, miss_cm: Mapping[str, float]) -> None:
+        self.miss_cm = dict(miss_cm)
+        super().__init__(message)
+
+
+class ScriptError(MotionRTError, ValueError):
+    """A script of actions is malformed; the message names the file, the step and the remedy."""
+
+
+class WalkError(MotionRTError, RuntimeError):
+    """A character did not get to its goal in any reasonable time; the message says where it stayed, and what to try."""
