@@ -1,0 +1,78 @@
+"""Walking and acting: canonical frame, walks, transitions, anchor poses, scenes and paths, chained actions.
+
+The names below are loaded when they are first used: a walk needs no scene, and searching motions none of them.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from motionrt.locomotion.actions import Act, Action, Do, Follow, Stand, Wait, WalkTo
+    from motionrt.locomotion.goal_frame import Goal, canonicalise, uncanonicalise
+    from motionrt.locomotion.journey import Pace
+    from motionrt.locomotion.paths import Path, Waypoints
+    from motionrt.locomotion.performance import Performance, PerformanceMeasures, Segment
+    from motionrt.locomotion.posing import PoseSolution, solve_pose
+    from motionrt.locomotion.scene import Agent, Scene
+    from motionrt.locomotion.script import Script
+    from motionrt.locomotion.walking import Crowd
+    from motionrt.locomotion.walks import Walk
+    from motionrt.locomotion.words import SemanticCloud, action_keypoints, load_cloud
+
+_HOMES = {
+    "actions": ("Act", "Action", "Do", "Follow", "Stand", "Wait", "WalkTo"),
+    "goal_frame": ("Goal", "canonicalise", "uncanonicalise"),
+    "journey": ("Pace",),
+    "paths": ("Path", "Waypoints"),
+    "performance": ("Performance", "PerformanceMeasures", "Segment"),
+    "posing": ("PoseSolution", "solve_pose"),
+    "scene": ("Agent", "Scene"),
+    "script": ("Script",),
+    "walking": ("Crowd",),
+    "walks": ("Walk",),
+    "words": ("SemanticCloud", "action_keypoints", "load_cloud"),
+}
+_HOME = {name: home for home, names in _HOMES.items() for name in names}
+
+__all__ = [
+    "Act",
+    "Action",
+    "Agent",
+    "Crowd",
+    "Do",
+    "Follow",
+    "Goal",
+    "Pace",
+    "Path",
+    "Performance",
+    "PerformanceMeasures",
+    "PoseSolution",
+    "Scene",
+    "Script",
+    "Segment",
+    "SemanticCloud",
+    "Stand",
+    "Wait",
+    "Walk",
+    "WalkTo",
+    "Waypoints",
+    "action_keypoints",
+    "canonicalise",
+    "load_cloud",
+    "solve_pose",
+    "uncanonicalise",
+]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOME:
+        raise AttributeError(f"module 'motionrt.locomotion' has no attribute '{name}'")
+    value = getattr(import_module(f"motionrt.locomotion.{_HOME[name]}"), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

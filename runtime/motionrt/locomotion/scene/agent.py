@@ -1,0 +1,37 @@
+"""Who walks: the sizes that decide what is walkable."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from motionrt.errors import InvalidInputError
+
+
+@dataclass(frozen=True)
+class Agent:
+    """A walker; the defaults are a grown-up human.
+
+    Attributes:
+        radius: metres of free ground wanted around the centre of the body.
+        step_height: metres that a foot steps up or down at once (meshes only).
+        max_slope: steepest ground in degrees (meshes only).
+        head_room: metres that must be free above the ground (meshes only).
+        comfort: metres of clearance beyond which more is no better; where there is room, paths keep it.
+    """
+
+    radius: float = 0.25
+    step_height: float = 0.3
+    max_slope: float = 40.0
+    head_room: float = 1.8
+    comfort: float = 0.7
+
+    def __post_init__(self) -> None:
+        for name in ("radius", "step_height", "head_room", "comfort"):
+            value = getattr(self, name)
+            if not (math.isfinite(value) and value >= 0):
+                raise InvalidInputError(f"the agent's {name} must be a number of metres >= 0, not {value}")
+        if not 0 <= self.max_slope < 90:
+            raise InvalidInputError(f"the agent's max_slope must lie in [0, 90) degrees, not {self.max_slope}")
+        if self.head_room <= self.step_height:
+            raise InvalidInputError("the agent's head_room must be larger than its step_height")

@@ -1,0 +1,68 @@
+"""Triangle meshes: from a file or from arrays to vertices in metres with Y up."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from motionrt.errors import InvalidInputError, SceneError
+from motionrt.locomotion.scene.optional import require_scene_file, scene_package
+
+Triangles = npt.NDArray[np.float64]
+UpAxis = Literal["y", "z"]
+MeshArrays = tuple[npt.ArrayLike, npt.ArrayLike]
+"""Vertices ``(V, 3)`` and faces ``(T, 3)``, counter-clockwise seen from outside."""
+
+
+def read_triangles(source: str | Path | MeshArrays, *, up: UpAxis = "y", scale: float = 1.0) -> Triangles:
+    """Corners ``(T, 3, 3)`` of all triangles of a mesh, metres, Y up.
+
+    Args:
+        source: a file that trimesh reads (OBJ, PLY, GLB, STL, ...), all its parts in place, or vertices and faces.
+        up: the axis that points up in the source. ``"z"`` turns (x, y, z) into (x, z, -y), without mirroring.
+        scale: metres per unit of the source, 0.01 for centimetres.
+
+    Raises:
+        MotionFileNotFoundError: there is no such file.
+        SceneError: the file cannot be read or holds no triangles, or trimesh is not installed.
+        InvalidInputError: wrong shapes, numbers, ``up`` or ``scale``.
+    """
+    if up not in {"y", "z"}:
+        raise InvalidInputError(f"up must be 'y' or 'z', not '{up}'")
+    if not (np.isfinite(scale) and scale > 0):
+        raise InvalidInputError(f"scale must be a positive number of metres per unit, not {scale}")
+    vertices, faces = _load(Path(source)) if isinstance(source, str | Path) else _checked(*source)
+    if not len(faces):
+        raise SceneError(f"{_name(source)} holds no triangles")
+    if not np.isfinite(vertices).all():
+        raise SceneError(f"{_name(source)} holds vertices that are not finite")
+    points = vertices * scale
+    if up == "z":
+        points = points[:, [0, 2, 1]] * (1, 1, -1)
+    return np.asarray(points[faces])
+
+
+def _name(source: str | Path | MeshArrays) -> str:
+    return str(source) if isinstance(source, str | Path) else "the mesh"
+
+
+def _checked(vertices: npt.ArrayLike, faces: npt.ArrayLike) -> tuple[Triangles, npt.NDArray[np.int64]]:
+    points, indices = np.asarray(vertices, dtype=np.float64), np.asarray(faces, dtype=np.int64)
+    if points.ndim != 2 or points.shape[1] != 3 or indices.ndim != 2 or indices.shape[1] != 3:
+        raise InvalidInputError(f"need vertices (V, 3) and faces (T, 3), not {points.shape} and {indices.shape}")
+    if indices.size and (indices.min() < 0 or indices.max() >= len(points)):
+        raise InvalidInputError(f"faces name vertices outside 0..{len(points) - 1}")
+    return points, indices
+
+
+def _load(path: Path) -> tuple[Triangles, npt.NDArray[np.int64]]:
+    require_scene_file(path)
+    trimesh = scene_package("trimesh", f"reading the mesh {path.name}")
+    try:
+        mesh = trimesh.load(path, force="mesh", skip_materials=True)
+        return np.asarray(mesh.vertices, dtype=np.float64), np.asarray(mesh.faces, dtype=np.int64).reshape(-1, 3)
+    except Exception as error:  # a parser of a dozen formats may raise anything
+        raise SceneError(f"{path} cannot be read as a mesh: {error}") from error

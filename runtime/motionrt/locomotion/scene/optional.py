@@ -1,0 +1,27 @@
+"""Packages of the extra ``scene``, imported when they are needed."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+from motionrt.errors import MotionFileNotFoundError, SceneError
+
+
+def scene_package(name: str, purpose: str) -> Any:
+    """The module ``name``, or a SceneError that says how to install it."""
+    try:
+        return import_module(name)
+    except ImportError as error:
+        package = {"PIL": "Pillow"}.get(name.split(".", maxsplit=1)[0], name)
+        message = f"{purpose} needs the package {package}: pip install motionrt[scene]"
+        raise SceneError(message) from error
+
+
+def require_scene_file(path: Path) -> None:
+    """Raise unless ``path`` is a file."""
+    if path.is_dir():
+        raise SceneError(f"{path} is a folder, not a scene file")
+    if not path.exists():
+        raise MotionFileNotFoundError(f"no such scene file: {path}")
