@@ -1,0 +1,107 @@
+"""Whole recordings at 30 fps, packed once: what WalkNet, TransNet and the pose prior are trained on.
+
+``NAME.npz`` holds the motions (:class:`motionrt.formats.motion_pack.MotionPack`), ``NAME.json`` their ids and splits.
+
+    python -m motionrt_training.corpora.recordings ../shared/data/mocap -o runs/recordings.npz
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from tqdm import tqdm
+
+from motionrt.errors import InvalidInputError, MotionFileNotFoundError
+from motionrt.formats import MOTION_SUFFIXES, load_motion
+from motionrt.formats.motion_pack import MotionPack
+from motionrt.motion import Motion
+from motionrt_training.corpora.cmu import read_cmu
+from motionrt_training.corpora.corpus import SPLITS
+
+FPS = 30.0
+LOCOMOTION_TEST = ("jl_walk_run_short",)  # held out: the other walk of the same rig is trained on
+
+
+@dataclass(frozen=True)
+class Recordings:
+    """Recordings by number; ``ids`` and ``splits`` run beside ``pack``."""
+
+    pack: MotionPack
+    ids: tuple[str, ...]
+    splits: tuple[str, ...]
+
+    def __len__(self) -> int:
+        return len(self.ids)
+
+    def split(self, name: str) -> Iterator[tuple[str, Motion]]:
+        """(id, motion) of every recording of a split, in file order."""
+        if name not in SPLITS:
+            raise InvalidInputError(f"split '{name}' is none of {SPLITS}")
+        return ((self.ids[i], self.pack[i]) for i in range(len(self)) if self.splits[i] == name)
+
+    def named(self, id_: str) -> Motion:
+        """The recording called ``id_``."""
+        if id_ not in self.ids:
+            raise InvalidInputError(f"no recording '{id_}' among {len(self)}")
+        return self.pack[self.ids.index(id_)]
+
+
+def recording_files(folder: str | Path) -> Iterator[tuple[Path, str]]:
+    """(file, split) of every recording of a mocap folder with ``cmu/`` and ``locomotion/``."""
+    cmu = read_cmu(Path(folder) / "cmu")
+    yield from sorted({(clip.path, clip.split) for clip in cmu.clips})
+    for path in sorted((Path(folder) / "locomotion").iterdir()):
+        if path.suffix.lower() in MOTION_SUFFIXES and "tpose" not in path.stem:
+            yield path, "test" if path.stem in LOCOMOTION_TEST else "train"
+
+
+def pack_recordings(folder: str | Path, out: str | Path) -> Recordings:
+    """Read every recording, ground it, resample to 30 fps and write ``out`` and its ``.json``; returns them."""
+    files = list(recording_files(folder))
+    motions = [load_motion(path).grounded().resample(FPS) for path, _ in tqdm(files, desc="recordings", unit="file")]
+    recordings = Recordings(
+        MotionPack.of(motions), tuple(path.stem for path, _ in files), tuple(split for _, split in files)
+    )
+    target = Path(out)
+    target.parent.mkdir(parents=True, exist_ok=True)
+    with target.open("wb") as file:
+        recordings.pack.write(file)
+    rows = {"ids": recordings.ids, "splits": recordings.splits}
+    target.with_suffix(".json").write_text(json.dumps(rows), encoding="utf-8")
+    return recordings
+
+
+def load_recordings(path: str | Path) -> Recordings:
+    """Read what :func:`pack_recordings` wrote.
+
+    Raises:
+        MotionFileNotFoundError: no such file; the message gives the command that makes it.
+        InvalidInputError: the two files do not belong together.
+    """
+    source = Path(path)
+    if not (source.is_file() and source.with_suffix(".json").is_file()):
+        raise MotionFileNotFoundError(
+            f"{source} or its .json does not exist; make them with: "
+            f"python -m motionrt_training.corpora.recordings MOCAP_FOLDER -o {source}"
+        )
+    rows = json.loads(source.with_suffix(".json").read_text(encoding="utf-8"))
+    pack = MotionPack.read(source)
+    if not len(pack) == len(rows["ids"]) == len(rows["splits"]):
+        raise InvalidInputError(f"{source} and its .json differ in their number of recordings; make them again")
+    return Recordings(pack, tuple(rows["ids"]), tuple(rows["splits"]))
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description="Read, ground, resample and pack every recording of a mocap folder.")
+    parser.add_argument("folder", help="holds cmu/ (with captions.jsonl) and locomotion/")
+    parser.add_argument("-o", "--out", required=True, help="the .npz to write; its .json stands beside it")
+    args = parser.parse_args()
+    pack_recordings(args.folder, args.out)
+
+
+if __name__ == "__main__":
+    main()
