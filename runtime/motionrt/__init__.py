@@ -1,4 +1,4 @@
-"""motionrt: search 3D human motion by text, on two CPU cores, offline and without torch.
+"""motionrt: search 3D human motion by text, walk and act in scenes, on two CPU cores, offline and without torch.
 
 The names below are loaded when they are first used, so that ``import motionrt`` costs nothing.
 """
@@ -11,6 +11,20 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from motionrt.errors import MotionRTError
     from motionrt.formats import load_motion, load_rig, save_motion
+    from motionrt.locomotion import (
+        Act,
+        Do,
+        Follow,
+        Goal,
+        Path,
+        Performance,
+        Scene,
+        Script,
+        Stand,
+        Wait,
+        Walk,
+        WalkTo,
+    )
     from motionrt.motion import SMPL24, Motion, Skeleton
     from motionrt.retrieval import Gallery, Hit
     from motionrt.runtime import Runtime
@@ -19,12 +33,24 @@ if TYPE_CHECKING:
 
 __all__ = [
     "SMPL24",
+    "Act",
+    "Do",
+    "Follow",
     "Gallery",
+    "Goal",
     "Hit",
     "Motion",
     "MotionRTError",
+    "Path",
+    "Performance",
     "Runtime",
+    "Scene",
+    "Script",
     "Skeleton",
+    "Stand",
+    "Wait",
+    "Walk",
+    "WalkTo",
     "__version__",
     "errors",
     "load_motion",
@@ -34,12 +60,24 @@ __all__ = [
 
 _HOMES = {
     "SMPL24": "motion",
+    "Act": "locomotion",
+    "Do": "locomotion",
+    "Follow": "locomotion",
     "Gallery": "retrieval",
+    "Goal": "locomotion",
     "Hit": "retrieval",
     "Motion": "motion",
     "MotionRTError": "errors",
+    "Path": "locomotion",
+    "Performance": "locomotion",
     "Runtime": "runtime",
+    "Scene": "locomotion",
+    "Script": "locomotion",
     "Skeleton": "motion",
+    "Stand": "locomotion",
+    "Wait": "locomotion",
+    "Walk": "locomotion",
+    "WalkTo": "locomotion",
     "load_motion": "formats",
     "load_rig": "formats",
     "save_motion": "formats",

@@ -14,6 +14,7 @@ from motionrt.formats import load_motion
 from motionrt.models import TextMotionModel
 from motionrt.motion import Motion
 from motionrt.motion.skeleton import FloatArray
+from motionrt.moving import Moving
 from motionrt.retrieval import (
     GALLERY_FILE,
     WINDOW_LENGTHS,
@@ -46,8 +47,8 @@ DEFAULT_CAPTIONS = _ASSETS / "captions.txt"
 EMBEDDED_CAPTIONS = _ASSETS / "captions.npz"  # the same, embedded by the shipped models
 
 
-class Runtime:
-    """Search, describe and embed motion; every model opens when it is first needed.
+class Runtime(Moving):
+    """Search, describe and embed motion, walk and act; every model opens when it is first needed.
 
     Args:
         models: the manifest or the folder of the models, by default those that came with motionrt.

@@ -141,7 +141,7 @@ class Trainer:
         with self.average.applied_to(self.model):
             self.model.eval()
             with torch.no_grad():
-                measures = self.task.validate(self.model)
+                measures = {name: float(value) for name, value in self.task.validate(self.model).items()}
             if measures.get("score", -math.inf) > self.best:
                 self.best = measures["score"]
                 self._save_best(measures)

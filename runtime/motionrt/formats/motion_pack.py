@@ -1,4 +1,4 @@
-"""Motions carried inside a gallery, for when their files are not on the machine.
+"""Many motions in one small file: those that a gallery carries, and those that come with motionrt.
 
 Rotations are stored as rotation vectors in steps of pi / 32767 (an error below 0.1 mm at arm's length), as
 differences from frame to frame, which compress well; roots are float32.
@@ -15,7 +15,7 @@ from zipfile import BadZipFile
 import numpy as np
 import numpy.typing as npt
 
-from motionrt.errors import GalleryError, InvalidInputError
+from motionrt.errors import FormatError, InvalidInputError
 from motionrt.motion import SMPL24, Motion
 from motionrt.motion.rotations import axis_angle_to_matrix, matrix_to_axis_angle
 from motionrt.motion.skeleton import FloatArray
@@ -43,7 +43,7 @@ class MotionPack:
     def of(cls, motions: Sequence[Motion]) -> MotionPack:
         """Pack motions; InvalidInputError for another skeleton than ``smpl24``."""
         if any(motion.skeleton != SMPL24 for motion in motions):
-            raise InvalidInputError("only motions of the smpl24 skeleton can be stored in a gallery")
+            raise InvalidInputError("only motions of the smpl24 skeleton can be packed")
         turns = [np.rint(matrix_to_axis_angle(m.rotations) / _STEP).astype(np.int16) for m in motions]
         lengths = [motion.frames for motion in motions]
         starts = np.concatenate([[0], np.cumsum(lengths)]).astype(np.int64)
@@ -67,14 +67,14 @@ class MotionPack:
 
     @classmethod
     def read(cls, path: Path) -> MotionPack:
-        """Read an ``.npz``; GalleryError when it is missing or damaged."""
+        """Read an ``.npz``; FormatError when it is missing or damaged."""
         try:
             with np.load(path, allow_pickle=False) as data:
                 pack = cls(_summed(data["steps"]), data["roots"], data["starts"], data["fps"])
         except (OSError, ValueError, KeyError, EOFError, BadZipFile) as error:
-            raise GalleryError(f"{path} is damaged ({error}); build the gallery again") from error
+            raise FormatError(path, f"is damaged ({error})") from error
         if len(pack.turns) != len(pack.roots) or pack.starts[-1:].tolist() != [len(pack.roots)]:
-            raise GalleryError(f"{path} is damaged (frame counts differ); build the gallery again")
+            raise FormatError(path, "is damaged (frame counts differ)")
         return pack
 
 

@@ -9,13 +9,13 @@ from pathlib import Path
 
 import numpy as np
 
-from motionrt.errors import GalleryError, InvalidInputError
+from motionrt.errors import FormatError, GalleryError, InvalidInputError
 from motionrt.formats import load_motion
+from motionrt.formats.motion_pack import MotionPack
 from motionrt.motion import Motion
 from motionrt.motion.skeleton import FloatArray
 from motionrt.retrieval import layout, store
 from motionrt.retrieval.locking import writing
-from motionrt.retrieval.motion_pack import MotionPack
 from motionrt.retrieval.records import Clip, ModelStamp, Skipped, WindowTable, window_table
 from motionrt.retrieval.search import ExactIndex, Hit, VectorIndex, checked_k, nearest_per_group
 from motionrt.retrieval.windows import MotionEmbedder, embed_windows, motion_features, spans_in_seconds
@@ -181,7 +181,12 @@ class Gallery:
     @cached_property
     def pack(self) -> MotionPack | None:
         """The motions that the gallery carries, read when first needed."""
-        return MotionPack.read(self.motions) if isinstance(self.motions, Path) else self.motions
+        if not isinstance(self.motions, Path):
+            return self.motions
+        try:
+            return MotionPack.read(self.motions)
+        except FormatError as error:
+            raise store.damaged(error.path, error.reason) from error
 
     @cached_property
     def _index(self) -> VectorIndex:

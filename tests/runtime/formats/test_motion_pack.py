@@ -1,4 +1,4 @@
-"""Motions carried inside a gallery: what comes back, and what is refused."""
+"""Packed motions: what comes back, and what is refused."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 from motions import random_motion, standing
 
-from motionrt.errors import GalleryError, InvalidInputError
+from motionrt.errors import FormatError, InvalidInputError
+from motionrt.formats.motion_pack import MotionPack
 from motionrt.motion import SMPL24, Motion, Skeleton
 from motionrt.motion.rotations import axis_angle_to_matrix
-from motionrt.retrieval.motion_pack import MotionPack
 
 
 def _stored(motions: list[Motion], folder: Path) -> MotionPack:
@@ -58,5 +58,5 @@ def test_another_skeleton_is_refused() -> None:
 def test_a_damaged_file_says_so(content: bytes, tmp_path: Path) -> None:
     path = tmp_path / "m.npz"
     path.write_bytes(content)
-    with pytest.raises(GalleryError, match="damaged"):
+    with pytest.raises(FormatError, match="damaged"):
         MotionPack.read(path)

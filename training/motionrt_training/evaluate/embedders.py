@@ -46,7 +46,7 @@ class TorchEmbedder:
 def load_torch(checkpoint: str | Path, sentences: SentenceEncoder) -> tuple[TorchEmbedder, int]:
     """The averaged weights of a training's checkpoint (``last.pt`` or ``best.pt``), and the steps that it took."""
     state = load_state(checkpoint)
-    return TorchEmbedder(trained_model(state), sentences), int(state["step"])
+    return TorchEmbedder(trained_model(state, TMR), sentences), int(state["step"])
 
 
 def _stacked(rows: list[torch.Tensor]) -> FloatArray:

@@ -1,0 +1,126 @@
+"""What a character can be told to do, as immutable values."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from motionrt.errors import InvalidInputError
+from motionrt.locomotion.paths import Path
+
+HOLD_S = 2.0  # seconds that a pose is held if nothing else is said
+
+
+@dataclass(frozen=True)
+class WalkTo:
+    """Walk to a place, round the obstacles of the scene, and stand there unless another walk follows.
+
+    Attributes:
+        x, z: metres.
+        heading: radians from +Z towards +X to face at the end; by default the way it came.
+    """
+
+    x: float
+    z: float
+    heading: float | None = None
+
+    def __post_init__(self) -> None:
+        if not all(math.isfinite(number) for number in (self.x, self.z, self.heading or 0.0)):
+            raise InvalidInputError(f"a place to walk to needs finite numbers, not {self}")
+
+    @property
+    def name(self) -> str:
+        """What it is called in the timeline."""
+        return f"walk to {self.x:.1f}, {self.z:.1f}"
+
+
+@dataclass(frozen=True)
+class Follow:
+    """Walk along a path that is given; from where the character is to its start it finds the way by itself.
+
+    Attributes:
+        path: where to walk.
+        heading: radians from +Z towards +X to face at the end; by default along the path.
+    """
+
+    path: Path
+    heading: float | None = None
+
+    @property
+    def name(self) -> str:
+        """What it is called in the timeline."""
+        return f"follow {self.path.length:.1f} m"
+
+
+@dataclass(frozen=True)
+class Act:
+    """Walk near, take the pose that meets keypoints, hold it.
+
+    Attributes:
+        keypoints: ``{joint of smpl24: (x, y, z) metres in the world}``.
+        heading: radians to face in the pose; by default what the keypoints suggest.
+        hold_s: seconds to stay in it.
+        approach: (x, z) to walk to first, where the way ends before the pose is taken; by default below the pose.
+        name: what to call it in the timeline.
+    """
+
+    keypoints: Mapping[str, Sequence[float]]
+    heading: float | None = None
+    hold_s: float = HOLD_S
+    approach: tuple[float, float] | None = None
+    name: str = "act"
+
+    def __post_init__(self) -> None:
+        _check_seconds(self.hold_s, self.name)
+
+
+@dataclass(frozen=True)
+class Do:
+    """An instruction in words, as in "sit on the sofa"; needs a semantic point cloud.
+
+    Attributes:
+        text: verb, object, height, hand.
+        hold_s: seconds to stay in the pose.
+    """
+
+    text: str
+    hold_s: float = HOLD_S
+
+    def __post_init__(self) -> None:
+        _check_seconds(self.hold_s, self.text)
+
+    @property
+    def name(self) -> str:
+        """What it is called in the timeline."""
+        return self.text
+
+
+@dataclass(frozen=True)
+class Stand:
+    """Stand up, or stand still: upright over the feet."""
+
+    hold_s: float = HOLD_S
+    name: str = "stand"
+
+    def __post_init__(self) -> None:
+        _check_seconds(self.hold_s, self.name)
+
+
+@dataclass(frozen=True)
+class Wait:
+    """Stay in the present pose; a walking character stops first."""
+
+    seconds: float = HOLD_S
+    name: str = "wait"
+
+    def __post_init__(self) -> None:
+        _check_seconds(self.seconds, self.name)
+
+
+Action = WalkTo | Follow | Act | Do | Stand | Wait
+
+
+def _check_seconds(seconds: float, name: str) -> None:
+    if not (math.isfinite(seconds) and seconds >= 0):
+        raise InvalidInputError(f"'{name}' cannot last {seconds} s; give 0 or more seconds")

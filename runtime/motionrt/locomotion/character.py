@@ -1,0 +1,219 @@
+"""A character that walks, changes its pose and holds it; remembers all that it did."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Protocol
+
+import numpy as np
+
+from motionrt.locomotion.bearings import (
+    Place,
+    ahead_of,
+    apart,
+    facing_of,
+    heading_along,
+    joined,
+    over_feet,
+    place_of,
+    wrapped,
+)
+from motionrt.locomotion.goal_frame import Goal, uncanonicalise
+from motionrt.locomotion.journey import Pace, Progress, walk
+from motionrt.locomotion.paths import Path
+from motionrt.locomotion.performance import Aim, Performance, Segment, performance_of
+from motionrt.locomotion.players import Players
+from motionrt.locomotion.terrain import Heights, Terrain, raised
+from motionrt.locomotion.transitions import distance, speed_of
+from motionrt.locomotion.walking import FPS, at_30_fps
+from motionrt.motion import Motion
+
+SEED = 60  # frames that a transition starts from
+STRIDE = 20  # frames of a walk that a transition into a stride ends with
+NEAR = 1.6  # metres that a transition covers without a walk before it
+SHARPEST = 1.6  # radians that one transition turns; more turns on the spot first
+SETTLE_S = 0.5  # seconds that the first pose is held
+MOVING = 0.4  # m/s above which a motion that is gone on from counts as a walk
+LOW = 0.3  # metres that the pelvis is lower than standing in a pose that one has to get up from
+
+
+class Planner(Protocol):
+    """Finds ways: a :class:`motionrt.locomotion.scene.Scene`."""
+
+    def plan(self, start: Sequence[float], goal: Sequence[float], /) -> Path:
+        """A path between two places (x, z)."""
+
+
+class Character:
+    """What the character did so far, and the few things that it can do next.
+
+    Args:
+        players: the models.
+        start: where it stands at first, or what it did before (which is not part of what it does then).
+        scene: finds ways round obstacles; without one it walks straight.
+        pace: how it walks.
+        seed: of the small movements of held poses.
+        level: height of the ground where there is no scene, metres.
+    """
+
+    def __init__(
+        self, players: Players, start: Goal | Motion, scene: Planner | None, pace: Pace, seed: int, level: float = 0.0
+    ) -> None:
+        self.players, self.scene, self.pace = players, scene, pace
+        self._seed = seed
+        self._segments: list[Segment] = []
+        self._aims: list[Aim] = []
+        self.terrain = Terrain(scene, level)
+        before = at_30_fps(start) if isinstance(start, Motion) else uncanonicalise(players.standing, start)
+        self._level = self.terrain.at(place_of(before))
+        self._levels: list[Heights] = []
+        if isinstance(start, Motion):
+            before = raised(start, np.full(start.frames, -self._level))
+        self._parts: list[Motion] = [before]  # on the plane, as all that follows
+        self._pose = before[-1:]
+        self.moving = speed_of(before) > MOVING
+        if isinstance(start, Goal):
+            self.hold(SETTLE_S, "start")
+
+    # -- where it is
+
+    @property
+    def place(self) -> Place:
+        """(x, z) metres."""
+        return place_of(self._parts[-1])
+
+    @property
+    def facing(self) -> float:
+        """Radians from +Z towards +X."""
+        return facing_of(self._parts[-1])
+
+    @property
+    def braking(self) -> float:
+        """Metres that it takes to come to a stand."""
+        return distance(self.pace.speed, 0.0)
+
+    def way(self, goal: Place) -> Path | None:
+        """A path from here to a place; None if that is here."""
+        if apart(goal, self.place) < 0.05:
+            return None
+        if self.scene is not None:
+            return self.scene.plan(self.place, goal)
+        return Path(np.array([self.place, goal], dtype=np.float32))
+
+    def way_along(self, path: Path) -> Path:
+        """A given path, from here."""
+        first = (float(path.points[0, 0]), float(path.points[0, 1]))
+        if apart(first, self.place) <= NEAR:
+            here = np.array([self.place], dtype=np.float32)
+            return Path(np.concatenate([here, path.points[1:]]))
+        way = self.way(first)
+        return path if way is None else Path(np.concatenate([way.points[:-1], path.points]))
+
+    # -- what it can do
+
+    def go(self, path: Path | None, name: str, until: float, progress: Progress | None = None) -> None:
+        """Walk along a path up to so many metres before its end; short ways are left to the transition that follows."""
+        rest = self.leave(path, name, until)
+        if rest is not None:
+            self.walked(walk(self.players.walk, self.tail, rest, self.pace.before_end(until), progress), rest, name)
+
+    def leave(self, path: Path | None, name: str, until: float) -> Path | None:
+        """Get into a stride; what is left of the path to walk, if anything."""
+        if path is None or path.length <= max(until, 0.3) or (not self.moving and path.length < NEAR):
+            return None
+        rest = path if self.moving else self._set_off(path, name, until)
+        return rest if rest is not None and rest.length > until + 0.05 else None
+
+    def walked(self, motion: Motion, path: Path, name: str) -> None:
+        """Remember a walk along a path."""
+        self._add("walk", name, motion, path)
+        self.moving = True
+
+    def stop(self, place: Place, facing: float, name: str) -> None:
+        """Come to a stand at a place, facing a heading."""
+        self.turn(facing, name, place)
+        self._stand(Goal(*place, facing), name)
+
+    def turn(self, facing: float, name: str, place: Place | None = None) -> None:
+        """Turn, standing at a place or where the feet are, until one more transition can do the rest."""
+        while abs(wrapped(facing - self.facing)) > SHARPEST:
+            turn = float(np.clip(wrapped(facing - self.facing), -SHARPEST, SHARPEST))
+            self._stand(Goal(*(place or over_feet(self._parts[-1])), self.facing + turn), name)
+
+    def get_up(self, name: str) -> None:
+        """Stand upright over the feet, if the pose is a low one."""
+        if not self.moving and self.players.standing.root[0, 1] - self._pose.root[0, 1] > LOW:
+            self.stand_here(name)
+
+    def stand_here(self, name: str) -> None:
+        """Stand upright where the feet are; a walking character stops ahead."""
+        ahead = self.braking if self.moving else 0.0
+        place = self.place if self.moving else over_feet(self._parts[-1])
+        self._stand(Goal(*ahead_of(place, self.facing, ahead), self.facing), name)
+
+    def into(self, pose: Motion, name: str, level: float | None = None) -> None:
+        """The transition into a pose that will be held, on ground that is ``level`` metres high."""
+        self._pose = pose
+        self._add("transition", name, self.players.transition(self.tail, pose, held=True), pose, level=level)
+        self.moving = False
+
+    def hold(self, seconds: float, name: str, keypoints: Mapping[str, Sequence[float]] | None = None) -> None:
+        """Stay in the present pose."""
+        if round(seconds * FPS) > 0:
+            self._seed += 1
+            self._add("hold", name, self.players.hold(self._pose, seconds, self._seed), None, keypoints)
+
+    # -- what it did
+
+    @property
+    def tail(self) -> Motion:
+        """The last two seconds, or all there are."""
+        frames, first = 0, len(self._parts)
+        while first > 0 and frames < SEED:
+            first -= 1
+            frames += self._parts[first].frames
+        return joined(self._parts[first:])[-SEED:]
+
+    def performance(self, *, foot_lock: bool) -> Performance:
+        """All that it did since the start."""
+        levels = np.concatenate(self._levels)
+        return performance_of(joined(self._parts[1:]), self._segments, self._aims, levels, foot_lock=foot_lock)
+
+    def _set_off(self, path: Path, name: str, until: float) -> Path | None:
+        """The transition from a held pose into a stride along the path; the rest of the path."""
+        ahead = min(distance(0.0, self.pace.speed), path.length - until)
+        place, facing = path.at(ahead), heading_along(path, ahead)
+        self.get_up(name)
+        self.turn(facing, name)
+        stride = uncanonicalise(self.players.stride[-STRIDE:], Goal(float(place[0]), float(place[1]), facing))
+        self._add("transition", name, self.players.transition(self.tail, stride), stride)
+        self.moving = True
+        return path.part(ahead, path.length) if path.length - ahead > 0.05 else None
+
+    def _ground(self, kind: str, motion: Motion, level: float | None) -> Heights:
+        """(F,) how high the ground is under a part: a walk is above it, a transition leads from level to level."""
+        if kind == "walk":
+            return self.terrain.under(motion.root[:, [0, 2]], self._level)
+        if kind == "hold":
+            return np.full(motion.frames, self._level)
+        aim = self.terrain.at(place_of(motion), self._level) if level is None else level
+        return np.linspace(self._level, aim, motion.frames + 1)[1:]
+
+    def _stand(self, goal: Goal, name: str) -> None:
+        self.into(uncanonicalise(self.players.standing, goal), name)
+
+    def _add(
+        self,
+        kind: str,
+        name: str,
+        motion: Motion,
+        aim: Aim,
+        keypoints: Mapping[str, Sequence[float]] | None = None,
+        level: float | None = None,
+    ) -> None:
+        self._levels.append(self._ground(kind, motion, level))
+        self._level = float(self._levels[-1][-1])
+        start = self._segments[-1].end if self._segments else 0
+        self._parts.append(motion)
+        self._segments.append(Segment(kind, name, start, start + motion.frames, dict(keypoints or {})))
+        self._aims.append(aim)

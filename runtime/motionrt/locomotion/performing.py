@@ -1,0 +1,169 @@
+"""Chaining actions: walk, transition in, hold, transition out, walk on  [Continual 3.2].
+
+Between two places WalkNet walks; into a pose and out of it TransNet fills two seconds. A transition out ends in a
+stride, so that WalkNet can go on from there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from motionrt.errors import InvalidInputError, MotionRTError
+from motionrt.locomotion.actions import Act, Action, Do, Follow, Stand, Wait, WalkTo
+from motionrt.locomotion.bearings import apart, facing_of, heading_along, place_of
+from motionrt.locomotion.character import NEAR, Character, Planner
+from motionrt.locomotion.goal_frame import Goal
+from motionrt.locomotion.journey import Pace, Progress
+from motionrt.locomotion.paths import Path
+from motionrt.locomotion.performance import Performance
+from motionrt.locomotion.players import Players
+from motionrt.motion import Motion
+from motionrt.motion.transforms import TOE_JOINTS
+
+if TYPE_CHECKING:
+    from motionrt.locomotion.words import SemanticCloud
+
+PER_CENT = 100
+
+
+class Performer:
+    """A character on its way through a list of actions.
+
+    Args:
+        players: the models.
+        start: where it stands at first, or what it did before.
+        scene: finds ways round obstacles; without one it walks straight.
+        cloud: tells what words such as "sofa" mean.
+        pace: how it walks.
+        seed: of the small movements of held poses.
+        progress: told how many per cent of the actions are done.
+    """
+
+    def __init__(
+        self,
+        players: Players,
+        start: Goal | Motion,
+        scene: Planner | None = None,
+        *,
+        cloud: SemanticCloud | None = None,
+        pace: Pace | None = None,
+        seed: int = 0,
+        progress: Progress | None = None,
+    ) -> None:
+        level = 0.0 if cloud is None else cloud.floor
+        self.character = Character(players, start, scene, pace or Pace(), seed, level)
+        self.cloud, self._progress = cloud, progress
+
+    def perform(self, actions: Sequence[Action], *, stop: bool = True, foot_lock: bool = True) -> Performance:
+        """Do everything, one after the other.
+
+        Args:
+            actions: what to do.
+            stop: stand at the end of a last walk; otherwise it ends in stride.
+            foot_lock: let standing feet stand still.
+
+        Raises:
+            PathError: there is no way.
+            ReachError: no pose meets the keypoints.
+            WalkError: the character got stuck.
+            InvalidInputError: no actions, or an instruction that means nothing here.
+        """
+        if not actions:
+            raise InvalidInputError("give at least one action")
+        for index, action in enumerate(actions):
+            following = actions[index + 1] if index + 1 < len(actions) else None
+            on = isinstance(following, WalkTo | Follow) or (following is None and not stop)
+            try:
+                self._do(action, on, self._part(index, len(actions), action.name))
+            except MotionRTError as error:
+                if len(actions) > 1:
+                    error.args = (f"step {index + 1} ('{action.name}'): {error}", *error.args[1:])
+                raise
+        return self.character.performance(foot_lock=foot_lock)
+
+    def _do(self, action: Action, walks_on: bool, progress: Progress) -> None:
+        if isinstance(action, WalkTo | Follow):
+            self._walk(action, walks_on, progress)
+        elif isinstance(action, Wait):
+            if self.character.moving:
+                self.character.stand_here(action.name)
+            self.character.hold(action.seconds, action.name)
+        elif isinstance(action, Stand):
+            self.character.stand_here(action.name)
+            self.character.hold(action.hold_s, action.name)
+        else:
+            self._take_pose(self._meant(action) if isinstance(action, Do) else action, progress)
+        progress(1, 1, action.name)
+
+    def _walk(self, action: WalkTo | Follow, walks_on: bool, progress: Progress) -> None:
+        character, path = self.character, self._path(action)
+        on = walks_on and action.heading is None
+        character.go(path, action.name, 0.0 if on else character.braking, progress)
+        if on and character.moving:
+            return
+        facing = action.heading
+        if facing is None:
+            facing = character.facing if path is None else heading_along(path, path.length)
+        character.stop(_end_of(action), facing, action.name)
+
+    def _path(self, action: WalkTo | Follow) -> Path | None:
+        if isinstance(action, Follow):
+            return self.character.way_along(action.path)
+        return self.character.way((action.x, action.z))
+
+    def _take_pose(self, action: Act, progress: Progress) -> None:
+        character = self.character
+        level = character.terrain.at(_foothold(action), 0.0)
+        lowered = {joint: (x, y - level, z) for joint, (x, y, z) in action.keypoints.items()}
+        pose = character.players.pose(lowered, action.heading).motion
+        root, facing = place_of(pose), facing_of(pose)
+        gate = action.approach or root
+        if apart(root, character.place) > NEAR:
+            until = max(0.0, character.braking - apart(gate, root))
+            character.go(character.way(gate), action.name, until, progress)
+        character.turn(facing, action.name, gate if apart(gate, character.place) < NEAR else None)
+        character.into(pose, action.name, level)
+        character.hold(action.hold_s, action.name, action.keypoints)
+
+    def _meant(self, action: Do) -> Act:
+        """What an instruction means here."""
+        from motionrt.locomotion.words import action_keypoints
+
+        if self.cloud is None:
+            raise InvalidInputError(f"'{action.text}' needs a scene with names: give cloud=, a semantic point cloud")
+        found = action_keypoints(action.text, self.cloud, self.character.place)
+        keypoints = {joint: tuple(float(x) for x in point) for joint, point in found.keypoints.items()}
+        approach = (float(found.approach[0]), float(found.approach[1]))
+        return Act(keypoints, found.heading, action.hold_s, approach, found.name)
+
+    def _part(self, index: int, count: int, name: str) -> Progress:
+        """Progress of one action of ``count``."""
+
+        def tell(done: int, total: int, _: str) -> None:
+            if self._progress is not None:
+                self._progress(PER_CENT * (index * total + done) // (total * count), PER_CENT, name)
+
+        return tell if self._progress is not None else _silent
+
+
+def _foothold(action: Act) -> tuple[float, float]:
+    """Where the ground is that a pose stands on: under its feet, else where it is approached from."""
+    feet = [point for joint, point in action.keypoints.items() if joint in TOE_JOINTS]
+    if action.approach is not None and not feet:
+        return action.approach
+    x, _, z = np.mean(feet or list(action.keypoints.values()), axis=0)
+    return float(x), float(z)
+
+
+def _end_of(action: WalkTo | Follow) -> tuple[float, float]:
+    if isinstance(action, WalkTo):
+        return action.x, action.z
+    x, z = action.path.points[-1]
+    return float(x), float(z)
+
+
+def _silent(_done: int, _total: int, _name: str) -> None:
+    """Nobody listens."""

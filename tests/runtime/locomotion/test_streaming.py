@@ -1,0 +1,85 @@
+"""A character for a game's loop: it goes where it is told, from the next frame on."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import islice
+
+import numpy as np
+import pytest
+from fake_players import FPS, FakePlayers
+from motions import random_motion, walking
+
+from motionrt.errors import InvalidInputError
+from motionrt.locomotion.bearings import facing_of
+from motionrt.locomotion.goal_frame import Goal
+from motionrt.locomotion.poses import stride_of
+from motionrt.locomotion.streaming import stream
+from motionrt.motion import Motion
+
+
+def frames(goal: Goal, count: int, start: Goal | Motion | None = None, **options: object) -> list[Motion]:
+    return list(islice(stream(FakePlayers(), start or Goal(0, 0), goal, **options), count))
+
+
+def roots(motions: list[Motion]) -> np.ndarray:
+    return np.concatenate([motion.root[:, [0, 2]] for motion in motions])
+
+
+def test_it_arrives_and_stays_facing_as_told() -> None:
+    seen = frames(Goal(3, 8, np.pi / 2), 500)
+    assert {motion.frames for motion in seen} == {1}
+    np.testing.assert_allclose(roots(seen[-30:]), np.tile([3, 8], (30, 1)), atol=0.02)
+    assert facing_of(seen[-1]) == pytest.approx(np.pi / 2, abs=0.05)
+    assert np.linalg.norm(np.diff(roots(seen), axis=0), axis=1).max() < 0.1
+
+
+def test_a_new_goal_takes_effect_from_the_next_frame() -> None:
+    walker = stream(FakePlayers(), stride_of(walking(60, FPS)), Goal(0, 20))
+    before = [next(walker) for _ in range(30)]
+    after = [walker.send(Goal(20, 1, 0)), *islice(walker, 9)]
+    assert np.diff(roots(before), axis=0)[:, 0] == pytest.approx(0, abs=1e-6)
+    steps = np.diff(roots([before[-1], *after]), axis=0)
+    assert (steps[:, 0] > 0.03).all()
+
+
+def test_a_goal_sent_while_it_stands_makes_it_set_off() -> None:
+    walker = stream(FakePlayers(), Goal(0, 0), Goal(0, 0))
+    np.testing.assert_allclose(roots(list(islice(walker, 90))), 0, atol=0.02)
+    walker.send(Goal(-6, 0, 0))
+    assert roots(list(islice(walker, 400)))[-1] == pytest.approx([-6, 0], abs=0.02)
+
+
+def test_a_goal_that_lies_behind_is_turned_to_first() -> None:
+    seen = frames(Goal(0, -8), 600)
+    place = roots(seen)
+    assert np.abs(place[:60]).max() < 0.3  # turns on the spot
+    np.testing.assert_allclose(place[-1], [0, -8], atol=0.02)
+
+
+def test_a_motion_is_gone_on_from() -> None:
+    first = frames(Goal(0, 9), 1, stride_of(walking(60, FPS)), foot_lock=False)[0]
+    np.testing.assert_allclose(first.root[0, [0, 2]], [0, 1.2 / FPS], atol=1e-4)
+
+
+class Drifting(FakePlayers):
+    """Holds that slide by a millimetre a frame."""
+
+    def hold(self, pose: Motion, seconds: float, seed: int) -> Motion:
+        held = super().hold(pose, seconds, seed)
+        return replace(held, root=held.root + np.arange(held.frames)[:, None] * np.array([0.001, 0, 0], np.float32))
+
+
+def test_locked_feet_do_not_slide() -> None:
+    def slide(foot_lock: bool) -> float:
+        seen = list(islice(stream(Drifting(), Goal(0, 0), Goal(0, 0), foot_lock=foot_lock), 40))
+        toes = np.concatenate([motion.positions()[:, [10, 11]] for motion in seen])
+        return float(np.linalg.norm(toes[-1] - toes[5], axis=-1).max())
+
+    assert slide(False) > 0.03
+    assert slide(True) < 0.002
+
+
+def test_another_frame_rate_is_refused() -> None:
+    with pytest.raises(InvalidInputError, match="resample"):
+        next(stream(FakePlayers(), random_motion(30, 20.0), Goal(0, 5)))

@@ -1,0 +1,175 @@
+"""The task of WalkNet for `Trainer`: draw windows and goals, disturb the histories, compare the next second."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, cast
+
+import numpy as np
+import torch
+import torch.nn.functional as F
+from torch import Tensor
+
+from motionrt_training.networks.legs import feet
+from motionrt_training.networks.walknet import FRAMES, WalkNet, seen_from, to_body
+from motionrt_training.options import option
+from motionrt_training.walk_pool import WalkPool
+from motionrt_training.walk_trial import Trial
+
+FOOT = 0.03  # metres and ...
+STEP = 0.01  # ... metres per frame at which errors of the feet are large
+UP = 3.0  # errors in height count this many times: the floor is near
+SHORTEST = FRAMES + 6  # frames of a stretch that are left at the first frame of a window
+
+
+@dataclass(frozen=True)
+class WalkSettings:
+    """Network, data and loss."""
+
+    width: int = option(512, "width of the network")
+    ff: int = option(1024, "width of its feed-forward parts")
+    patch: int = option(5, "frames that form one token; 1 is the paper's network")
+    batch: int = option(128, "windows per batch")
+    farthest: int = option(100, "frames from now to the farthest goal")
+    fading: float = option(8.0, "frames in which an error of the history is to fade to a third")
+    noise: float = option(1.0, "scale of the noise on the history")
+    chain: int = option(2, "most predictions in a row before the one that is trained")
+    chunk: int = option(8, "most frames kept of each")
+    chain_after: int = option(400, "steps before --chain begins")
+    feet: float = option(0.05, "weight of the feet's positions and speeds")
+    skate: float = option(0.1, "weight of the speed of planted toes")
+
+
+class WalkTask:
+    """Windows of 30 frames and what follows, seen from a goal further on in the same stretch."""
+
+    def __init__(self, train: WalkPool, val: WalkPool, settings: WalkSettings, seed: int) -> None:
+        self.pool, self.settings, self.seed = train, settings, seed
+        torch.manual_seed(seed)
+        self.model = WalkNet(settings.width, ff=settings.ff, patch=settings.patch)
+        self.frames = torch.from_numpy(train.frames)
+        self.planted = torch.from_numpy(train.planted)
+        self.starts = train.starts(SHORTEST)
+        weight = train.weight[self.starts].astype(np.float64)
+        self.odds = np.cumsum(weight / weight.sum())
+        self._set_statistics()
+        self.trial = Trial(val)
+
+    def batch(self, step: int) -> dict[str, Tensor]:
+        """Windows (B, 30 + chain + 30, 219) in their goals' frames; frames behind a stretch's end do not count."""
+        rng = np.random.default_rng((self.seed, step))
+        first = self.starts[np.searchsorted(self.odds, rng.random(self.settings.batch)).clip(max=len(self.odds) - 1)]
+        kept = self._chunks(rng, step)
+        length = 2 * FRAMES + int(sum(kept))
+        at = first[:, None] + np.arange(length)
+        inside = at <= self.pool.last[first, None]
+        at = np.minimum(at, self.pool.last[first, None])
+        now = first + FRAMES - 1
+        goal = (
+            now
+            + 1
+            + (rng.random(len(now)) * np.minimum(self.settings.farthest, self.pool.last[first] - now)).astype(int)
+        )
+        heading = torch.from_numpy(self.pool.heading[goal])
+        turn = torch.stack((heading.cos(), heading.sin()), dim=1)
+        place = self.frames[goal, 216:] * torch.tensor([1.0, 0.0, 1.0])
+        return {
+            "window": seen_from(self.frames[at], turn, place),
+            "inside": torch.from_numpy(inside),
+            "planted": self.planted[at],
+            "speed": torch.from_numpy(self.pool.speed[now]),
+            "kept": torch.from_numpy(kept),
+            "noise": torch.from_numpy(rng.random((len(first), 1, 1)).astype(np.float32)),
+        }
+
+    def _chunks(self, rng: np.random.Generator, step: int) -> np.ndarray[Any, Any]:
+        """How many frames of each of the predictions in a row before the trained one are kept."""
+        if step < self.settings.chain_after:
+            return np.zeros(0, dtype=np.int64)
+        return rng.integers(1, self.settings.chunk + 1, int(rng.integers(self.settings.chain + 1)))
+
+    def losses(self, model: torch.nn.Module, batch: Any) -> dict[str, Tensor]:
+        """L2 of the next second, of its feet, and of the speed of planted toes."""
+        net = cast("WalkNet", model)
+        history, now = self._history(net, batch), FRAMES + int(batch["kept"].sum())
+        local, turn, place = to_body(history)
+        true = seen_from(batch["window"][:, now - 1 : now + FRAMES], turn, place)
+        target = true[:, 1:] + (local[:, -1:] - true[:, :1]) * self._fading(true)
+        made = seen_from(net(history, batch["speed"]), turn, place)
+        inside = batch["inside"][:, now : now + FRAMES].float() * self._weights(made)
+        error = (soft_square((made - target) / net.change_std).mean(2) * inside).sum() / inside.sum()
+        planted = batch["planted"][:, now - 1 : now + FRAMES]
+        paired = (planted[:, 1:] & planted[:, :-1]).float()
+        footing = self._feet(local[:, -1:], made, target, inside, paired)
+        loss = error + self.settings.feet * footing["feet"] + self.settings.skate * footing["skate"]
+        return {"loss": loss, "features": error, **footing}
+
+    def _history(self, net: WalkNet, batch: Any) -> Tensor:
+        """The first frames with noise, followed by what the network itself made of them."""
+        history = batch["window"][:, :FRAMES]
+        white = torch.randn_like(history) * net.rate_std * 0.5
+        steady = torch.randn_like(history[:, :1]) * net.pose_std * 0.03
+        still = torch.ones(history.shape[2], device=history.device)
+        still[[216, 218]] = 0.0  # the place in the world is exact
+        history = history + self.settings.noise * batch["noise"] * (white + steady * still)
+        with torch.no_grad():
+            for kept in batch["kept"].tolist():
+                made = net(history, batch["speed"])[:, :kept]
+                history = torch.cat((history[:, kept:], orthonormal(made)), dim=1)
+        return history
+
+    def _feet(self, last: Tensor, made: Tensor, target: Tensor, inside: Tensor, paired: Tensor) -> dict[str, Tensor]:
+        points, true = feet(torch.cat((last, made), dim=1)), feet(torch.cat((last, target), dim=1))
+        moved, truly = points.diff(dim=1), true.diff(dim=1)
+        tall = made.new_tensor([1.0, UP, 1.0])
+        place = robust((points - true)[:, 1:] * tall / FOOT).mean((2, 3))
+        speed = robust((moved - truly)[:, 1:] / STEP).mean((2, 3))  # of the first frame the planted toes decide
+        slip = robust(moved[..., 1, :] / STEP) * paired  # (B, 30, 2) of the toes
+        total = inside.sum()
+        followed = ((place * inside).sum() + (speed * inside[:, 1:]).sum()) / total
+        return {"feet": followed, "skate": (slip.mean(2) * inside).sum() / total}
+
+    def _fading(self, like: Tensor) -> Tensor:
+        """(30, 1): what is left of an error of the history; it is to fade, not to be snapped back from."""
+        return torch.exp(-(1.0 + torch.arange(FRAMES, device=like.device)) / self.settings.fading)[:, None]
+
+    def _weights(self, like: Tensor) -> Tensor:
+        """(30,): only the first frame is kept at run time, so it counts most."""
+        return 1.0 / (1.0 + torch.arange(FRAMES, device=like.device) * 0.2)
+
+    def validate(self, model: torch.nn.Module) -> dict[str, float]:
+        """Walks along paths with turns, at stride 1, by the averaged weights."""
+        return self.trial.measures(cast("WalkNet", model))
+
+    def _set_statistics(self) -> None:
+        """Means and deviations of the network's inputs and outputs, from a sample of windows."""
+        rng = np.random.default_rng(0)
+        first = rng.choice(self.pool.starts(2 * FRAMES), 4000)
+        window = self.frames[torch.from_numpy(first[:, None] + np.arange(2 * FRAMES))]
+        local, turn, place = to_body(window[:, :FRAMES])
+        future = seen_from(window[:, FRAMES:], turn, place)
+        net = self.model
+        net.pose_mean.copy_(local.mean((0, 1)))
+        net.pose_std.copy_(local.std((0, 1)).clamp(min=0.01))
+        net.rate_std.copy_(local.diff(dim=1).std((0, 1)).clamp(min=0.001))
+        change = (future - local[:, -1:]).std(0)
+        net.change_std.copy_(torch.maximum(change, 0.03 * net.pose_std).clamp(min=0.001))
+
+
+def soft_square(error: Tensor) -> Tensor:
+    """Squared errors, linear beyond a few standard deviations: (30, 219) of them are rarely all well behaved."""
+    return 2.0 * F.huber_loss(error, torch.zeros_like(error), reduction="none", delta=3.0)
+
+
+def robust(error: Tensor) -> Tensor:
+    """Length of vectors (..., 3), squared where small, linear where large."""
+    return (1.0 + error.square().sum(-1)).sqrt() - 1.0
+
+
+def orthonormal(frames: Tensor) -> Tensor:
+    """(B, T, 219) with rotations brought near to SO(3): one Newton step of the polar decomposition."""
+    m = frames[..., :216].unflatten(-1, (24, 3, 3))
+    gram = sum(m[..., i, :, None] * m[..., i, None, :] for i in range(3))  # M^T M
+    half = 1.5 * torch.eye(3, device=m.device) - 0.5 * cast("Tensor", gram)
+    product = sum(m[..., :, i, None] * half[..., None, i, :] for i in range(3))
+    return torch.cat((cast("Tensor", product).flatten(-3), frames[..., 216:]), dim=-1)
