@@ -44,7 +44,7 @@ def parser() -> argparse.ArgumentParser:
     result = argparse.ArgumentParser(prog="motionrt_export", description="Export the trained models to ONNX.")
     commands = result.add_subparsers(required=True, metavar="COMMAND")
     everything = commands.add_parser("all", help="export, quantise, validate and write the manifest")
-    everything.add_argument("--checkpoints", type=Path, default=Path("models"), help="folder of tmr.safetensors")
+    everything.add_argument("--checkpoints", type=Path, default=Path("models"), help="folder of the released networks")
     everything.add_argument("--out", type=Path, default=Path("models"), help="folder of the shipped files")
     everything.add_argument("--build", type=Path, default=Path("build/models"), help="folder of the float32 files")
     everything.add_argument("--manifest", type=Path, default=Path("models_manifest.yaml"))
@@ -91,7 +91,8 @@ def _assets(args: argparse.Namespace) -> int:
 def validate_file(sources: Sources, model: str, variant: str, file: Path) -> Figures:
     """Worst figures of one file; raises ValidationError beyond the tolerance."""
     source, limits = sources.source(model), tolerance(model, variant)
-    subject = Subject(source.spec, file.read_bytes(), source.reference, source.examples, limits, source.scale)
+    content, trial = file.read_bytes(), source.trial
+    subject = Subject(source.spec, content, source.reference, source.examples, limits, source.scale, trial=trial)
     return validate(subject)
 
 

@@ -12,6 +12,7 @@ CMU = (
     "free for all uses, commercial too, not to be resold as data; the data used in this project was obtained "
     "from mocap.cs.cmu.edu, the database was created with funding from NSF EIA-0196217",
 )
+LOCOMOTION = "locomotion recordings of walking and running in BVH files", "MIT"
 CAPTIONS = "captions of those trials, written for this project", "free to use in any way"
 
 
@@ -27,6 +28,8 @@ class Card:
 
 
 _TMR_DATA = CMU, CAPTIONS
+_MOTION_DATA = CMU, LOCOMOTION
+_CONTINUAL = "motionrt, after Generating Continual Human Motion in Diverse 3D Scenes"
 _TMR_ATTRIBUTION = "motionrt, after TMR (Petrovich, Black, Varol, ICCV 2023)"
 
 CARDS: Mapping[str, Card] = {
@@ -59,6 +62,26 @@ CARDS: Mapping[str, Card] = {
         _TMR_ATTRIBUTION,
         _TMR_DATA,
         "mean and standard deviation of every feature over the training split, inside the graph",
+    ),
+    "walknet": Card(
+        "WalkNet at stride 1: the next frame of a walk towards a goal, from the last second and a speed",
+        _CONTINUAL,
+        _MOTION_DATA,
+        "of poses seen from the last frame, their changes and the predicted changes, over walks of the training split, "
+        "inside the graph",
+    ),
+    "transnet": Card(
+        "TransNet: the motion between a second or two of seed frames and a target pose",
+        _CONTINUAL,
+        _MOTION_DATA,
+        "of frames seen from the target, their changes and the wanted corrections, over the training split, inside the "
+        "graph",
+    ),
+    "pose_prior": Card(
+        "decoder of a variational autoencoder over poses: a normal latent into 24 joint rotations",
+        "motionrt, after VPoser (Pavlakos et al., CVPR 2019)",
+        _MOTION_DATA,
+        "mean and standard deviation of 6D rotations over poses of the training split, inside the graph",
     ),
 }
 

@@ -28,7 +28,7 @@ def random_examples(spec: GraphSpec) -> Examples:
 
     def make(batch: int, length: int, seed: int) -> Feeds:
         random = np.random.default_rng(seed)
-        sizes = {"batch": batch, spec.length: length}
+        sizes = spec.sizes(batch, length)
         return {tensor.name: _random(random, tensor.dtype, tensor.resolved(sizes)) for tensor in spec.inputs}
 
     return make

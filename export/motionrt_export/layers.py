@@ -16,12 +16,18 @@ from motionrt_training.networks.transformer import (
 )
 
 
-def linear(weight: Tensor, bias: Tensor) -> nn.Linear:
-    """A Linear holding these values: weight (out, in), bias (out,)."""
-    made = nn.Linear(weight.shape[1], weight.shape[0])
-    made.weight = nn.Parameter(weight.detach().clone(), requires_grad=False)
-    made.bias = nn.Parameter(bias.detach().clone(), requires_grad=False)
+def linear(weight: Tensor, bias: Tensor | None) -> nn.Linear:
+    """A Linear holding these values: weight (out, in), bias (out,) or none."""
+    made = nn.Linear(weight.shape[1], weight.shape[0], bias=bias is not None)
+    made.weight = constant(weight)
+    if bias is not None:
+        made.bias = constant(bias)
     return made
+
+
+def constant(value: Tensor) -> nn.Parameter:
+    """A value that is stored in the graph."""
+    return nn.Parameter(value.detach().clone(), requires_grad=False)
 
 
 class Attention(nn.Module):
@@ -46,15 +52,16 @@ class Attention(nn.Module):
             self.qkv = linear(torch.cat((q * scale, k, v)), torch.cat((bq * scale, bk, bv)))
         self.out = linear(source.out.weight, source.out.bias)
 
-    def forward(self, x: Tensor, bias: Tensor) -> Tensor:
-        """X (B, T, d), bias (B, 1, 1, T) -> (B, T, d), or (B, 1, d) of the first token."""
+    def forward(self, x: Tensor, bias: Tensor | None = None) -> Tensor:
+        """X (B, T, d), bias (B, 1, 1, T) or none -> (B, T, d), or (B, 1, d) of the first token."""
         if self.first_only:
             q = self._split(self.q(x[:, :1]), 1)
             k, v = self._split(self.kv(x), 2).split(self.heads, dim=1)
         else:
             q, k, v = self._split(self.qkv(x), 3).split(self.heads, dim=1)  # (B, H, T, d/H)
         q = q if self.scale == 1.0 else q * self.scale
-        mixed = (q @ k.transpose(-1, -2) + bias).softmax(dim=-1) @ v
+        scores = q @ k.transpose(-1, -2)
+        mixed = (scores if bias is None else scores + bias).softmax(dim=-1) @ v
         return self.out(mixed.transpose(1, 2).reshape(x.shape[0], -1, self.d))
 
     def _split(self, x: Tensor, parts: int) -> Tensor:
@@ -73,6 +80,19 @@ class FeedForward(nn.Module):
         return self.down(F.gelu(self.up(x)))
 
 
+class Norm(nn.Module):
+    """Layer norm in plain operators: the runtime's own goes through a row one number at a time."""
+
+    def __init__(self, source: nn.LayerNorm) -> None:
+        super().__init__()
+        self.weight, self.bias, self.eps = constant(source.weight), constant(source.bias), source.eps
+
+    def forward(self, x: Tensor) -> Tensor:
+        x = x - x.mean(dim=-1, keepdim=True)
+        variance = (x * x).mean(dim=-1, keepdim=True)
+        return x * (1.0 / (variance + self.eps).sqrt()) * self.weight + self.bias
+
+
 class Encoder(nn.Module):
     """One post-norm encoder layer."""
 
@@ -83,7 +103,7 @@ class Encoder(nn.Module):
         self.feed = FeedForward(source.feed.up, source.feed.down)
         self.norm1, self.norm2 = source.norm1, source.norm2
 
-    def forward(self, x: Tensor, bias: Tensor) -> Tensor:
+    def forward(self, x: Tensor, bias: Tensor | None = None) -> Tensor:
         kept = x[:, :1] if self.first_only else x
         x = self.norm1(kept + self.attention(x, bias))
         return self.norm2(x + self.feed(x))

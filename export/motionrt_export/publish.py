@@ -16,13 +16,12 @@ from motionrt_export import calibration
 from motionrt_export.cards import CARDS, SENTENCE_RECIPE
 from motionrt_export.entries import Entry, file_entry, model_entry, variant_entry, write_manifest
 from motionrt_export.measures import Figures, rounded
-from motionrt_export.optimise import CHOICES, QUANTISED, quantise
+from motionrt_export.optimise import CHOICES, FP32, QUANTISED, quantise, shipped, variants
 from motionrt_export.sources import Source, Sources
 from motionrt_export.tolerances import FLOAT32, INT8
 from motionrt_export.trace import trace
 from motionrt_training.networks.minilm import MAX_TOKENS
 
-FP32 = "fp32"
 SENTENCE_ENCODER = "sentence_encoder"
 HEADING = "Every shipped model. Written by `python -m motionrt_export all --checkpoints models --out models`."
 
@@ -44,7 +43,7 @@ class Layout:
 
     def file(self, model: str, variant: str) -> Path:
         """The ONNX file of a variant."""
-        return (self.build if variant == FP32 else self.out) / f"{model}.{variant}.onnx"
+        return (self.out if variant == shipped(model) else self.build) / f"{model}.{variant}.onnx"
 
 
 def tolerance(model: str, variant: str) -> Figures:
@@ -58,21 +57,21 @@ def publish(sources: Sources, layout: Layout, check: Check, quality: Mapping[str
     entries = {}
     for name in CHOICES:
         source = sources.source(name)
-        _export(source, sources, layout)
-        variants = {variant: _variant(name, variant, layout, check, say) for variant in (FP32, QUANTISED)}
-        recipe, found = _recipe(name, sources, layout), quality.get(name, _trained_quality(name, sources))
+        _export(source, layout)
+        proven = {variant: _variant(name, variant, layout, check, say) for variant in variants(name)}
+        found = quality.get(name, _trained_quality(source))
         tokens = tokenizer if name == SENTENCE_ENCODER else None
-        entries[name] = _entry(source, variants, recipe, found, tokens)
+        entries[name] = _entry(source, proven, _recipe(source, layout), found, tokens)
     write_manifest(layout.manifest, entries, HEADING)
     say(f"{layout.manifest}: {len(entries)} models")
 
 
-def _export(source: Source, sources: Sources, layout: Layout) -> None:
+def _export(source: Source, layout: Layout) -> None:
     name = source.spec.name
     exact = trace(source.module, source.spec)
-    feeds = sources.sentences.one_by_one() if name == SENTENCE_ENCODER else ()
     _save(exact, layout.file(name, FP32))
-    _save(quantise(exact, CHOICES[name], feeds), layout.file(name, QUANTISED))
+    if choice := CHOICES[name]:
+        _save(quantise(exact, choice, source.calibration()), layout.file(name, QUANTISED))
 
 
 def _save(model: onnx.ModelProto, path: Path) -> None:
@@ -94,14 +93,14 @@ def _publish_tokenizer(sources: Sources, layout: Layout) -> Entry:
 
 def _variant(name: str, variant: str, layout: Layout, check: Check, say: Say) -> Entry:
     path, limits = layout.file(name, variant), tolerance(name, variant)
-    figures = rounded(check(name, variant, path))
+    figures, choice = rounded(check(name, variant, path)), CHOICES[name]
     shown = ", ".join(f"{output} {key} {figures[output][key]:g}" for output in limits for key in limits[output])
     say(f"{path}: {path.stat().st_size / 1e6:.1f} MB, {shown}")
     return variant_entry(
         path,
         layout.root,
-        shipped=variant != FP32,
-        quantisation="none" if variant == FP32 else CHOICES[name].describe(),
+        shipped=variant == shipped(name),
+        quantisation=choice.describe() if choice and variant == QUANTISED else "none",
         tolerance=limits,
         parity=figures,
         producers=_producers(),
@@ -110,7 +109,7 @@ def _variant(name: str, variant: str, layout: Layout, check: Check, say: Say) ->
 
 def _entry(
     source: Source,
-    variants: Mapping[str, Entry],
+    proven: Mapping[str, Entry],
     recipe: Mapping[str, Any],
     quality: Mapping[str, Any],
     tokenizer: Entry | None,
@@ -124,31 +123,33 @@ def _entry(
         training_data=card.training_data,
         recipe=recipe,
         feature_statistics=card.feature_statistics,
-        default_variant=QUANTISED,
-        variants=variants,
+        default_variant=shipped(source.spec.name),
+        variants=proven,
         quality=quality,
         tokenizer=tokenizer,
     )
 
 
-def _recipe(name: str, sources: Sources, layout: Layout) -> dict[str, Any]:
-    if name == SENTENCE_ENCODER:
+def _recipe(source: Source, layout: Layout) -> dict[str, Any]:
+    if source.release is None:
         return dict(SENTENCE_RECIPE)
-    notes, checkpoint = sources.released[1], sources.checkpoint
+    notes, checkpoint = source.release.notes, source.release.path
     return {
-        "command": notes.get("command", "python -m motionrt_training.recipes.tmr"),
+        "command": notes.get("command", f"python -m motionrt_training.recipes.{checkpoint.stem}"),
         **{key: _plain(notes[key]) for key in ("seed", "steps", "minutes") if key in notes},
         "checkpoint": _relative(checkpoint, layout.root),
         "checkpoint_sha256": hashlib.sha256(checkpoint.read_bytes()).hexdigest(),
     }
 
 
-def _trained_quality(name: str, sources: Sources) -> Mapping[str, float]:
-    """Measures of the test split that the checkpoint carries from its training."""
-    if name == SENTENCE_ENCODER:
+def _trained_quality(source: Source) -> Mapping[str, float]:
+    """Measures that the checkpoint carries from its training: of the test split, else of the validation."""
+    if source.release is None:
         return {}
-    measures = json.loads(sources.released[1].get("measures", "{}"))
-    return {key: round(float(value), 2) for key, value in measures.items() if key.startswith("test_")}
+    measures = json.loads(source.release.notes.get("measures", "{}"))
+    tested = {key: value for key, value in measures.items() if key.startswith("test_")}
+    validated = {f"validation_{key}": value for key, value in measures.items() if key != "score"}
+    return {key: round(float(value), 2) for key, value in (tested or validated).items()}
 
 
 def _plain(text: str) -> str | int | float:

@@ -9,9 +9,13 @@ import numpy as np
 import torch
 from torch import Tensor
 
+from motionrt_export.motion_graphs import WalkNetGraph
 from motionrt_training.networks.actor import Distribution
 from motionrt_training.networks.minilm import MiniLM, mean_pooled
+from motionrt_training.networks.pose_prior import PosePrior
 from motionrt_training.networks.tmr import TMR
+from motionrt_training.networks.transnet import TransNet
+from motionrt_training.networks.walknet import WalkNet
 
 Arrays = Mapping[str, np.ndarray[Any, Any]]
 Reference = Callable[[Arrays], dict[str, np.ndarray[Any, Any]]]
@@ -40,6 +44,27 @@ def motion_reference(model: TMR) -> Reference:
 def decoder_reference(model: TMR) -> Reference:
     """Raw features of a latent."""
     return _reference(lambda z, mask: {"motion": model.decode(z, mask)}, "latent", "mask")
+
+
+def walk_reference(model: WalkNet) -> Reference:
+    """The first frame that is predicted."""
+    return _reference(lambda frames, speed: {"next": model(frames, speed)[:, 0]}, "frames", "speed")
+
+
+def step_reference(model: WalkNet) -> Reference:
+    """The same at half the cost, for inputs: the module that is exported."""
+    graph = WalkNetGraph(model)
+    return _reference(lambda frames, speed: {"next": graph(frames, speed)}, "frames", "speed")
+
+
+def transition_reference(model: TransNet) -> Reference:
+    """All frames, the hidden ones filled."""
+    return _reference(lambda frames, hidden: {"motion": model(frames, hidden)}, "frames", "hidden")
+
+
+def pose_reference(model: PosePrior) -> Reference:
+    """Rotations of a latent."""
+    return _reference(lambda latent: {"rotations": model.decode(latent)}, "latent")
 
 
 def _encoded(distribution: Distribution) -> dict[str, Tensor]:

@@ -1,59 +1,102 @@
-"""Where the trained weights come from, and the four things that each export needs of them."""
+"""Where the trained weights come from, and what each export needs of them."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Any, Generic
 
 import numpy as np
 from torch import nn
 
-from motionrt_export import specs
+from motionrt_export import references, specs
 from motionrt_export.calibration import sentence_ids
-from motionrt_export.examples import Examples, Motions, Sentences
+from motionrt_export.drift import TransitionDrift, WalkDrift
+from motionrt_export.examples import Examples, Feeds, Motions, Sentences, random_examples
 from motionrt_export.graphs import DecoderGraph, MotionEncoderGraph, SentenceEncoderGraph, TextEncoderGraph
-from motionrt_export.references import (
-    Reference,
-    decoder_reference,
-    motion_reference,
-    sentence_reference,
-    text_reference,
-)
+from motionrt_export.motion_graphs import TransNetGraph, WalkNetGraph
+from motionrt_export.references import Reference
 from motionrt_export.specs import GraphSpec
-from motionrt_training.checkpoint import load_release
+from motionrt_export.transitions import Transitions
+from motionrt_export.validate import Trial
+from motionrt_export.walks import Walks
+from motionrt_training.checkpoint import Network, load_release, network_name
 from motionrt_training.networks.minilm import MiniLM, package_folder
+from motionrt_training.networks.pose_prior import PosePrior
 from motionrt_training.networks.tmr import TMR
+from motionrt_training.networks.transnet import TransNet
+from motionrt_training.networks.walknet import WalkNet
 
-CHECKPOINT = "tmr.safetensors"
+
+@dataclass(frozen=True)
+class Release(Generic[Network]):
+    """A released network, how it came to be, and its file."""
+
+    model: Network
+    notes: Mapping[str, str]
+    path: Path
 
 
 @dataclass(frozen=True)
 class Source:
-    """One graph: the module to export, the reference it must equal, inputs to try, units of the errors."""
+    """One graph: the module to export, the reference it must equal, inputs to try, units of the errors.
+
+    `release` is where its weights come from, `calibration` gives inputs for quantising, `trial` is a longer use.
+    """
 
     spec: GraphSpec
     module: nn.Module
     reference: Reference
     examples: Examples
-    scale: Mapping[str, np.ndarray[Any, Any]]
+    scale: Mapping[str, np.ndarray[Any, Any]] = field(default_factory=dict)
+    release: Release[Any] | None = None
+    calibration: Callable[[], Iterable[Feeds]] = tuple
+    trial: Trial | None = None
 
 
 class Sources:
-    """The released checkpoint and the sentence encoder's package, read when they are needed."""
+    """The released checkpoints and the sentence encoder's package, read when they are needed.
+
+    `steps` and `characters` say how far how many characters walk when WalkNet is validated.
+    """
+
+    steps, characters = 1000, 16
 
     def __init__(self, checkpoints: Path) -> None:
-        self.checkpoint = checkpoints / CHECKPOINT
+        self.folder = checkpoints
+
+    def checkpoint(self, network: type[nn.Module]) -> Path:
+        """The file that a network is released in."""
+        return self.folder / f"{network_name(network)}.safetensors"
+
+    def load(self, network: type[Network]) -> tuple[Network, Mapping[str, str]]:
+        """A released network and how it came to be."""
+        return load_release(self.checkpoint(network), network)
+
+    def _released(self, network: type[Network]) -> Release[Network]:
+        return Release(*self.load(network), self.checkpoint(network))
 
     @cached_property
     def backbone(self) -> MiniLM:
         return MiniLM.from_package()
 
     @cached_property
-    def released(self) -> tuple[TMR, dict[str, str]]:
-        return load_release(self.checkpoint)
+    def tmr(self) -> Release[TMR]:
+        return self._released(TMR)
+
+    @cached_property
+    def walknet(self) -> Release[WalkNet]:
+        return self._released(WalkNet)
+
+    @cached_property
+    def transnet(self) -> Release[TransNet]:
+        return self._released(TransNet)
+
+    @cached_property
+    def pose_prior(self) -> Release[PosePrior]:
+        return self._released(PosePrior)
 
     @property
     def tokenizer_file(self) -> Path:
@@ -70,28 +113,55 @@ class Sources:
             specs.TMR_TEXT.name: self._text,
             specs.TMR_MOTION.name: self._motion,
             specs.TMR_DECODER.name: self._decoder,
+            specs.WALKNET.name: self._walknet,
+            specs.TRANSNET.name: self._transnet,
+            specs.POSE_PRIOR.name: self._pose_prior,
         }
         return makers[name]()
 
     def _sentence_encoder(self) -> Source:
-        module, reference = SentenceEncoderGraph(self.backbone), sentence_reference(self.backbone)
-        return Source(specs.SENTENCE_ENCODER, module, reference, self.sentences, {})
+        module, reference = SentenceEncoderGraph(self.backbone), references.sentence_reference(self.backbone)
+        examples = self.sentences
+        return Source(specs.SENTENCE_ENCODER, module, reference, examples, calibration=examples.one_by_one)
 
     def _text(self) -> Source:
-        model = self.released[0]
-        return Source(specs.TMR_TEXT, TextEncoderGraph(model), text_reference(model), self._motions.text, {})
+        model = self.tmr.model
+        module, reference = TextEncoderGraph(model), references.text_reference(model)
+        return Source(specs.TMR_TEXT, module, reference, self._motions.text, release=self.tmr)
 
     def _motion(self) -> Source:
-        model = self.released[0]
-        module, reference = MotionEncoderGraph(model), motion_reference(model)
-        return Source(specs.TMR_MOTION, module, reference, self._motions.motion, {})
+        model = self.tmr.model
+        module, reference = MotionEncoderGraph(model), references.motion_reference(model)
+        return Source(specs.TMR_MOTION, module, reference, self._motions.motion, release=self.tmr)
 
     def _decoder(self) -> Source:
-        model = self.released[0]
+        model = self.tmr.model
         scale = {"motion": model.motion_std.numpy()}
-        module, reference = DecoderGraph(model), decoder_reference(model)
-        return Source(specs.TMR_DECODER, module, reference, self._motions.decoder, scale)
+        module, reference = DecoderGraph(model), references.decoder_reference(model)
+        return Source(specs.TMR_DECODER, module, reference, self._motions.decoder, scale, self.tmr)
+
+    def _walknet(self) -> Source:
+        model, trial = self.walknet.model, WalkDrift(self.walks, steps=self.steps, characters=self.characters)
+        module, reference = WalkNetGraph(model), references.walk_reference(model)
+        return Source(specs.WALKNET, module, reference, self.walks, release=self.walknet, trial=trial)
+
+    def _transnet(self) -> Source:
+        model, examples = self.transnet.model, Transitions(self.walks, self.pose_prior.model)
+        module, reference, trial = (
+            TransNetGraph(model),
+            references.transition_reference(model),
+            TransitionDrift(examples),
+        )
+        return Source(specs.TRANSNET, module, reference, examples, release=self.transnet, trial=trial)
+
+    def _pose_prior(self) -> Source:
+        model, spec = self.pose_prior.model, specs.POSE_PRIOR
+        return Source(spec, model, references.pose_reference(model), random_examples(spec), release=self.pose_prior)
 
     @cached_property
     def _motions(self) -> Motions:
-        return Motions(self.sentences, self.backbone, self.released[0])
+        return Motions(self.sentences, self.backbone, self.tmr.model)
+
+    @cached_property
+    def walks(self) -> Walks:
+        return Walks(self.walknet.model)

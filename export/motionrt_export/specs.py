@@ -33,19 +33,24 @@ class TensorSpec:
 class GraphSpec:
     """A graph's signature; `embeddings` names the outputs that are compared by cosine, row by row.
 
-    `length` names the axis that padding extends, `mask` the input that says what is valid.
+    `length` names the axis that padding extends, `mask` the input that says what is valid; graphs whose lengths are
+    fixed have neither.
     """
 
     name: str
     inputs: tuple[TensorSpec, ...]
     outputs: tuple[TensorSpec, ...]
-    length: str
-    mask: str
+    length: str | None = None
+    mask: str | None = None
     embeddings: tuple[str, ...] = field(default=())
 
     def dynamic_axes(self) -> dict[str, dict[int, str]]:
         """What `torch.onnx.export` wants."""
         return {tensor.name: tensor.dynamic_axes() for tensor in (*self.inputs, *self.outputs)}
+
+    def sizes(self, batch: int, length: int) -> dict[str, int]:
+        """The dynamic axes with their sizes."""
+        return {"batch": batch} | ({self.length: length} if self.length else {})
 
 
 _TOKEN_MASK = TensorSpec("attention_mask", "int64", ("batch", "tokens"), "1", "1 for a token, 0 for padding")
@@ -87,3 +92,39 @@ TMR_TEXT = GraphSpec(
 )
 TMR_MOTION = GraphSpec("tmr_motion", (_MOTION, _FRAME_MASK), (_EMBEDDING, _LATENT), "frames", "mask", ("embedding",))
 TMR_DECODER = GraphSpec("tmr_decoder", (_LATENT, _FRAME_MASK), (_MOTION,), "frames", "mask", ())
+
+_SEEN = "ccf219 frames at 30 fps"
+_NEXT = "the frame after the last one, seen from the goal; rotations to be projected to SO(3)"
+WALKNET = GraphSpec(
+    "walknet",
+    (
+        TensorSpec("frames", "float32", ("batch", 30, 219), "1, m", f"the last {_SEEN}, seen from the goal"),
+        TensorSpec("speed", "float32", ("batch",), "m/s", "how fast to walk"),
+    ),
+    (TensorSpec("next", "float32", ("batch", 219), "1, m", _NEXT),),
+)
+TRANSNET = GraphSpec(
+    "transnet",
+    (
+        TensorSpec("frames", "float32", ("batch", 120, 219), "1, m", f"{_SEEN}, seen from the target"),
+        TensorSpec("hidden", "bool", ("batch", 120), "1", "true for frames that are to be filled; they are not read"),
+    ),
+    (
+        TensorSpec(
+            "motion",
+            "float32",
+            ("batch", 120, 219),
+            "1, m",
+            "the frames with the hidden ones filled, whose rotations are to be projected to SO(3)",
+        ),
+    ),
+)
+POSE_PRIOR = GraphSpec(
+    "pose_prior",
+    (TensorSpec("latent", "float32", ("batch", 32), "1", "a normal latent: zero is the mean pose"),),
+    (
+        TensorSpec(
+            "rotations", "float32", ("batch", 24, 3, 3), "1", "local to the parent; the pelvis tilts and has no yaw"
+        ),
+    ),
+)

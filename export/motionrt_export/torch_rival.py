@@ -20,12 +20,12 @@ from motionrt.bench.rivals import Rival
 from motionrt.bench.timing import Call
 from motionrt.bench.workload import ANSWER, MOTION, SEARCH_SIZES, TEXT, TEXTS, TOP, Workload, search_case
 from motionrt.models import find_manifest
-from motionrt_training.checkpoint import load_release
+from motionrt_export.torch_moves import move_cases, released
 from motionrt_training.networks.minilm import MAX_TOKENS, MiniLM, package_folder
 from motionrt_training.networks.tmr import TMR
 from motionrt_training.networks.transformer import set_fused_attention
 
-CHECKPOINT = "models/tmr.safetensors"
+RELEASED = "models"  # folder of the released networks, beneath that of the manifest
 
 
 class TorchModel:
@@ -36,9 +36,8 @@ class TorchModel:
         self.tokenizer.no_padding()
         self.tokenizer.enable_truncation(MAX_TOKENS)
         self.sentences = MiniLM.from_package()
-        self.tmr = _network(models)
-        for module in (self.sentences, self.tmr):
-            set_fused_attention(module.eval(), fused=True)
+        self.tmr = released(TMR, _folder(models))
+        set_fused_attention(self.sentences.eval(), fused=True)
 
     @torch.inference_mode()
     def embed_text(self, text: str) -> Tensor:
@@ -66,13 +65,13 @@ def open_torch(work: Workload, threads: int, models: str | None = None) -> Rival
     }
     for size in SEARCH_SIZES:
         cases[search_case(size)] = _search(vectors[:size], vectors[-1])
+    cases |= move_cases(work.moves, _folder(models))
     return Rival(cases, [sys.executable, "-m", "motionrt_export.torch_rival", *([models] if models else [])])
 
 
-def _network(models: str | None) -> TMR:
-    """The released network; freshly made weights, which are as fast, where the checkpoint is not at hand."""
-    path = Path(find_manifest(models)).parent / CHECKPOINT
-    return load_release(path)[0] if path.is_file() else TMR()
+def _folder(models: str | None) -> Path:
+    """Where the released networks lie."""
+    return Path(find_manifest(models)).parent / RELEASED
 
 
 def _search(vectors: Tensor, query: Tensor) -> Call:

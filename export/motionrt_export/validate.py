@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -20,6 +20,7 @@ BATCHES = (1, 3, 32)
 EXTRA = 13  # padding that must change nothing
 
 Array = np.ndarray[Any, Any]
+Trial = Callable[[Reference, Reference], Figures]  # the file, torch -> figures of a longer use of both
 TYPES = {"float32": onnx.TensorProto.FLOAT, "int64": onnx.TensorProto.INT64, "bool": onnx.TensorProto.BOOL}
 
 
@@ -31,7 +32,8 @@ class ValidationError(Exception):
 class Subject:
     """What is validated against what, on which inputs, how exactly.
 
-    `scale` are the units of an output's errors, such as the standard deviations of the features.
+    `scale` are the units of an output's errors, such as the standard deviations of the features; `trial` tells what the
+    errors add up to in use.
     """
 
     spec: GraphSpec
@@ -42,16 +44,27 @@ class Subject:
     scale: Mapping[str, Array]
     lengths: tuple[int, ...] = LENGTHS
     batches: tuple[int, ...] = BATCHES
+    trial: Trial | None = None
+
+    @property
+    def tried_lengths(self) -> tuple[int, ...]:
+        """The lengths that are tried: one that nobody reads where the graph's own is fixed."""
+        return self.lengths if self.spec.length else (1,)
 
 
 def validate(subject: Subject) -> Figures:
-    """The worst figures over all lengths and batches; raises ValidationError."""
+    """The worst figures over all lengths and batches, and those of the trial; raises ValidationError."""
     check_signature(subject)
     session = open_session(subject.content)
-    values = worst(_compare(subject, session, feeds) for feeds in _cases(subject))
-    _require(subject, "values against torch", beyond(values, subject.tolerance))
-    padding = worst(_padding(subject, session, length) for length in subject.lengths)
-    _require(subject, "padding invariance", beyond(padding, subject.tolerance))
+    values = worst(_compare(subject, session, feeds, length) for feeds, length in _cases(subject))
+    _check(subject, "values against torch", values)
+    if subject.spec.length:
+        _check(subject, "padding invariance", worst(_padding(subject, session, n) for n in subject.lengths))
+    if subject.trial:
+        drift = subject.trial(lambda feeds: run(session, dict(feeds)), subject.reference)
+        _check(subject, "drift from torch", drift)
+        values |= drift
+    _require_equal(subject, "figures that a tolerance is for", sorted({*subject.tolerance} - {*values}), [])
     return values
 
 
@@ -84,22 +97,22 @@ def run(session: ort.InferenceSession, feeds: Feeds) -> dict[str, Array]:
     return dict(zip(names, session.run(names, feeds), strict=True))
 
 
-def _cases(subject: Subject) -> Iterator[Feeds]:
+def _cases(subject: Subject) -> Iterator[tuple[Feeds, int]]:
     """Every length and batch; in a batch the rows are valid for all, half, a third, a quarter of it."""
-    for length in subject.lengths:
+    for length in subject.tried_lengths:
         for batch in subject.batches:
             feeds = subject.examples(batch, length, seed=1000 * length + batch)
-            mask = feeds[subject.spec.mask]
-            for row in range(batch):
-                mask[row, max(1, length // (1 + row % 4)) :] = 0
-            yield feeds
+            if subject.spec.mask:
+                for row, valid in enumerate(feeds[subject.spec.mask]):
+                    valid[max(1, length // (1 + row % 4)) :] = 0
+            yield feeds, length
 
 
-def _compare(subject: Subject, session: ort.InferenceSession, feeds: Feeds) -> Figures:
+def _compare(subject: Subject, session: ort.InferenceSession, feeds: Feeds, length: int) -> Figures:
     found, expected = run(session, feeds), subject.reference(feeds)
+    batch = len(feeds[subject.spec.inputs[0].name])
     for tensor in subject.spec.outputs:
-        mask = feeds[subject.spec.mask]
-        shape = tensor.resolved({"batch": mask.shape[0], subject.spec.length: mask.shape[1]})
+        shape = tensor.resolved(subject.spec.sizes(batch, length))
         _require_equal(subject, f"shape of {tensor.name}", found[tensor.name].shape, shape)
         _require_equal(subject, f"type of {tensor.name}", found[tensor.name].dtype.name, tensor.dtype)
     return _figures(subject, found, expected, feeds)
@@ -125,13 +138,18 @@ def _padded(tensor: TensorSpec, value: Array, spec: GraphSpec) -> Array:
 
 
 def _figures(subject: Subject, found: dict[str, Array], expected: dict[str, Array], feeds: Feeds) -> Figures:
-    valid = feeds[subject.spec.mask].astype(bool)
+    valid = feeds[subject.spec.mask].astype(bool) if subject.spec.mask else None
     result = {}
     for tensor in subject.spec.outputs:
         rows = valid if subject.spec.length in tensor.shape else None
         scale = subject.scale.get(tensor.name)
         result[tensor.name] = measure(found[tensor.name], expected[tensor.name], rows, scale)
     return result
+
+
+def _check(subject: Subject, check: str, figures: Figures) -> None:
+    limits = {name: values for name, values in subject.tolerance.items() if name in figures}
+    _require(subject, check, beyond(figures, limits))
 
 
 def _require_equal(subject: Subject, check: str, found: object, wanted: object) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import shutil
 from pathlib import Path
 
 import numpy as np
@@ -30,8 +31,8 @@ def publish_tiny(root: Path) -> TinySources:
 
     def check(model: str, variant: str, file: Path) -> Figures:
         source, limits = sources.source(model), tolerance(model, variant)
-        content, sizes = file.read_bytes(), {"lengths": (1, 9), "batches": (1, 2)}
-        subject = Subject(source.spec, content, source.reference, source.examples, limits, source.scale, **sizes)
+        content, rest = file.read_bytes(), {"lengths": (1, 9), "batches": (1, 2), "trial": source.trial}
+        subject = Subject(source.spec, content, source.reference, source.examples, limits, source.scale, **rest)
         return validate(subject)
 
     publish(sources, layout(root), check, {"tmr_text": {"R1": 50.0}}, lambda _: None)
@@ -52,7 +53,7 @@ def digests(root: Path) -> dict[str, str]:
 def test_a_second_run_writes_the_same_bytes(published: tuple[Path, TinySources], tmp_path: Path) -> None:
     publish_tiny(tmp_path)
     assert digests(tmp_path) == digests(published[0])
-    assert len(digests(tmp_path)) == 4 + 4 + 3  # int8 files, float32 files; manifest, tokenizer, checkpoint
+    assert len(digests(tmp_path)) == 7 + 6 + 2 + 4  # shipped files, others; manifest, tokenizer; checkpoints
 
 
 def test_the_runtime_reads_the_manifest_and_finds_every_file(published: tuple[Path, TinySources]) -> None:
@@ -75,7 +76,7 @@ def test_the_runtime_gives_the_embeddings_of_torch(
 ) -> None:
     root, sources = published
     model = TextMotionModel(root, variant=variant, threads=1)
-    network = sources.released[0]
+    network = sources.tmr.model
     ids = torch.from_numpy(model.sentences.tokens("a person walks in a circle"))[None]
     features = sources.backbone(ids, torch.ones_like(ids))
     text = torch.nn.functional.normalize(network.encode_text(features, torch.ones_like(ids)).mu, dim=-1)
@@ -87,7 +88,7 @@ def test_the_runtime_gives_the_embeddings_of_torch(
 
 def test_the_runtime_decodes_what_torch_decodes(published: tuple[Path, TinySources]) -> None:
     root, sources = published
-    network, latent = sources.released[0], torch.randn(2, 256)
+    network, latent = sources.tmr.model, torch.randn(2, 256)
     expected = network.decode(latent, torch.ones(2, 30)).numpy()
     found = TextMotionModel(root, variant="fp32").decode(latent.numpy(), 30)
     np.testing.assert_allclose(found, expected, atol=1e-4)
@@ -103,7 +104,7 @@ def test_a_file_beyond_its_tolerance_leaves_no_manifest(tmp_path: Path) -> None:
 
 
 def test_a_published_file_that_is_exchanged_is_refused(published: tuple[Path, TinySources], tmp_path: Path) -> None:
-    publish_tiny(tmp_path)
+    shutil.copytree(published[0], tmp_path, dirs_exist_ok=True)
     text = tmp_path / "models" / "tmr_text.int8.onnx"
     text.write_bytes((tmp_path / "models" / "tmr_motion.int8.onnx").read_bytes())
     with pytest.raises(ChecksumError, match=r"expected [0-9a-f]{64}, found [0-9a-f]{64}"):

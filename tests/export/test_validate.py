@@ -14,7 +14,7 @@ onnx = pytest.importorskip("onnx", reason="onnx is not installed; the export ext
 from onnx import TensorProto, numpy_helper  # noqa: E402
 from tiny_nets import tiny_sources, tiny_tmr  # noqa: E402
 
-from motionrt_export.optimise import CHOICES, quantise  # noqa: E402
+from motionrt_export.optimise import CHOICES, quantise, variants  # noqa: E402
 from motionrt_export.publish import tolerance  # noqa: E402
 from motionrt_export.specs import TMR_TEXT  # noqa: E402
 from motionrt_export.trace import trace  # noqa: E402
@@ -31,12 +31,13 @@ def sources(tmp_path_factory: pytest.TempPathFactory):
 def subject(sources, name: str, variant: str = "fp32") -> Subject:
     source = sources.source(name)
     model = trace(source.module, source.spec)
-    if variant == "int8":
-        feeds = sources.sentences.one_by_one() if name == "sentence_encoder" else ()
-        model = quantise(model, CHOICES[name], feeds)
+    choice = CHOICES[name]
+    if variant == "int8" and choice:
+        model = quantise(model, choice, source.calibration())
     content = model.SerializeToString(deterministic=True)
     limits = tolerance(name, variant)
-    return Subject(source.spec, content, source.reference, source.examples, limits, source.scale, **SMALL)
+    rest = {**SMALL, "trial": source.trial}
+    return Subject(source.spec, content, source.reference, source.examples, limits, source.scale, **rest)
 
 
 def altered(subject: Subject, change: Callable[[onnx.ModelProto], object]) -> Subject:
@@ -50,11 +51,11 @@ def text(sources) -> Subject:
     return subject(sources, "tmr_text")
 
 
-@pytest.mark.parametrize("name", list(CHOICES))
-@pytest.mark.parametrize("variant", ["fp32", "int8"])
+@pytest.mark.parametrize(("name", "variant"), [(name, variant) for name in CHOICES for variant in variants(name)])
 def test_an_honest_export_passes(sources, name: str, variant: str) -> None:
     figures = validate(subject(sources, name, variant))
-    assert set(figures) == {tensor.name for tensor in sources.source(name).spec.outputs}
+    assert set(figures) >= {tensor.name for tensor in sources.source(name).spec.outputs}
+    assert set(figures) >= set(tolerance(name, variant))
 
 
 def test_a_corrupted_weight_fails_with_the_figure(text: Subject) -> None:
@@ -92,6 +93,12 @@ def test_a_fixed_length_fails_at_the_axes(text: Subject) -> None:
 
     with pytest.raises(ValidationError, match=r"axes of token_features: found \('batch', 9, 384\)"):
         validate(altered(text, fix))
+
+
+def test_a_tolerance_that_nothing_was_measured_for_fails(text: Subject) -> None:
+    limits = {**text.tolerance, "walk": {"height_cm": 1.0}}
+    with pytest.raises(ValidationError, match=r"figures that a tolerance is for: found \['walk'\]"):
+        validate(dataclasses.replace(text, tolerance=limits))
 
 
 class IgnoresItsMask(torch.nn.Module):

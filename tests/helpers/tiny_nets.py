@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import cached_property
 from pathlib import Path
 
 import torch
 
 from motionrt_export.sources import Sources
+from motionrt_export.walks import Walks
+from motionrt_training.checkpoint import Network, network_name
 from motionrt_training.networks.minilm import MiniLM
+from motionrt_training.networks.pose_prior import PosePrior, to_6d
 from motionrt_training.networks.tmr import TMR
+from motionrt_training.networks.transnet import TransNet
+from motionrt_training.networks.walknet import WalkNet
 
 TOKENIZER = Path(__file__).parents[1] / "fixtures" / "models" / "models" / "tokenizer.json"
 
@@ -31,22 +37,64 @@ def tiny_minilm() -> MiniLM:
     return model.eval().requires_grad_(False)
 
 
+def tiny_walknet(patch: int = 5) -> WalkNet:
+    """A WalkNet of two narrow layers that stands about: changes are small."""
+    torch.manual_seed(5)
+    model = WalkNet(d=64, layers=2, heads=2, ff=64, patch=patch)
+    model.body.out.weight.data.normal_(0.0, 0.1)
+    _standing(model.pose_mean)
+    model.pose_std.uniform_(0.05, 0.3)
+    model.rate_std.uniform_(0.005, 0.03)
+    model.change_std.uniform_(0.001, 0.01)
+    return model.eval().requires_grad_(False)
+
+
+def tiny_transnet(patch: int = 4) -> TransNet:
+    """A TransNet of two narrow layers that corrects its straight lines a little."""
+    torch.manual_seed(6)
+    model = TransNet(d=64, layers=2, heads=2, ff=64, patch=patch)
+    _standing(model.pose_mean)
+    model.body.out.weight.data.normal_(0.0, 0.1)
+    for name in ("pose", "rate", "seed", "change"):
+        getattr(model, f"{name}_std").uniform_(0.02, 0.2)
+    return model.eval().requires_grad_(False)
+
+
+def tiny_pose_prior() -> PosePrior:
+    """A PosePrior of narrow layers around the T-pose."""
+    torch.manual_seed(7)
+    model = PosePrior(width=48)
+    model.mean.copy_(to_6d(torch.eye(3).expand(24, 3, 3)).flatten())
+    model.std.fill_(0.3)
+    return model.eval().requires_grad_(False)
+
+
+def _standing(mean: torch.Tensor) -> None:
+    mean[:216] = torch.eye(3).flatten().repeat(24)
+    mean[217] = 0.9
+
+
+NOTES = {"seed": "3", "steps": "10", "minutes": "0.123", "measures": '{"test_R1": 12.345, "val_R1": 1}'}
+MAKERS = {TMR: tiny_tmr, WalkNet: tiny_walknet, TransNet: tiny_transnet, PosePrior: tiny_pose_prior}
+
+
 class TinySources(Sources):
     """The tiny networks in place of the released ones."""
+
+    steps, characters = 40, 2
 
     @cached_property
     def backbone(self) -> MiniLM:
         return tiny_minilm()
 
+    def load(self, network: type[Network]) -> tuple[Network, Mapping[str, str]]:
+        model = MAKERS[network]()
+        assert isinstance(model, network)
+        return model, NOTES
+
     @cached_property
-    def released(self) -> tuple[TMR, dict[str, str]]:
-        notes = {
-            "seed": "3",
-            "steps": "10",
-            "minutes": "0.123",
-            "measures": '{"test_R1": 12.345, "val_R1": 1}',
-        }
-        return tiny_tmr(), notes
+    def walks(self) -> Walks:
+        return Walks(self.walknet.model, characters=2, steps=70, settle=5)
 
     @property
     def tokenizer_file(self) -> Path:
@@ -54,7 +102,8 @@ class TinySources(Sources):
 
 
 def tiny_sources(folder: Path) -> TinySources:
-    """Sources whose checkpoint file exists, as its checksum goes into the manifest."""
+    """Sources whose checkpoint files exist, as their checksums go into the manifest."""
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / "tmr.safetensors").write_bytes(b"tiny")
+    for network in MAKERS:
+        (folder / f"{network_name(network)}.safetensors").write_bytes(b"tiny")
     return TinySources(folder)

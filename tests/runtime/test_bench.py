@@ -12,11 +12,13 @@ from fake_embedder import FakeEmbedder
 from motionrt import runtime as runtime_module
 from motionrt.bench import processes, report, rivals, worker
 from motionrt.bench.first_answer import peak_mb
+from motionrt.bench.roads import Setting, chosen
 from motionrt.bench.timing import Timing, interleaved
-from motionrt.bench.workload import ANSWER, MOTION, SEARCH_SIZES, TEXT, Workload, own_cases, search_case
+from motionrt.bench.workload import ANSWER, MOTION, SEARCH_SIZES, TEXT, Workload, search_case
 from motionrt.errors import InvalidInputError, MotionRTError
 
 CASES = [TEXT, MOTION, *map(search_case, SEARCH_SIZES), ANSWER]
+RETRIEVAL = ["text", "motion", "search", "retrieve", "cold"]
 
 
 @pytest.fixture(scope="module")
@@ -46,8 +48,15 @@ def test_percentiles_are_milliseconds() -> None:
     assert (timing.p50_ms, timing.p95_ms, timing.runs) == (pytest.approx(50), pytest.approx(95), 101)
 
 
+def test_times_are_those_of_one_unit() -> None:
+    timing = Timing.of([0.064, 0.064], units=64)
+    assert (timing.p50_ms, timing.p95_ms) == (pytest.approx(1.0), pytest.approx(1.0))
+
+
 def test_every_case_does_what_its_name_says(work: Workload) -> None:
-    cases = own_cases(runtime_module.Runtime(), work)
+    setting = Setting(None, 1, work)
+    found = [road.cases(setting) for road in chosen(RETRIEVAL).values()]
+    cases = {name: case.call for part in found for name, case in part.items()}
     assert list(cases) == CASES
     assert cases[TEXT]().shape == cases[MOTION]().shape == (1, 256)
     for size in SEARCH_SIZES:
@@ -70,7 +79,7 @@ class Installed:
 
 def test_a_rival_is_measured_beside_the_cases_it_has(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(rivals, "entry_points", Installed(f"{__name__}:open_double"))
-    found = worker.measure(None, 1, "double", rounds=1, calls=2)
+    found = worker.measure(None, 1, "double", rounds=1, calls=2, only=RETRIEVAL)
     assert [case["case"] for case in found["cases"]] == CASES
     assert [case["case"] for case in found["cases"] if "against" in case] == [TEXT]
     text = found["cases"][0]
@@ -117,7 +126,7 @@ def test_rows_have_a_column_for_every_header() -> None:
     case = {"case": TEXT, "p50_ms": 2.0, "p95_ms": 3.0, "runs": 4}
     other = {"name": "torch", "p50_ms": 10.0, "p95_ms": 12.0, "runs": 4, "ratio": 5.0}
     cold = {"seconds": 0.25, "runs": 2, "peak_mb_text": 100.4, "peak_mb_text_and_motion": None}
-    run = {"threads": 1, "cases": [case, {**case, "against": other}], "cold_start": cold}
+    run = {"threads": 1, "cases": [case, {**case, "against": other}], "left_out": {}, "cold_start": cold}
     assert report.rows(run) == [
         [TEXT, "2.00 ms", "3.00 ms", "500/s", "", ""],
         [TEXT, "2.00 ms", "3.00 ms", "500/s", "10.00 ms", "5.0 x"],

@@ -15,9 +15,10 @@ pytest.importorskip("safetensors", reason="training tests need safetensors (extr
 pytest.importorskip("tqdm", reason="training tests need tqdm (extra 'train')")
 
 from motionrt_training.augment import Augmentation, View, draw_view, view_motion, view_text  # noqa: E402
-from motionrt_training.checkpoint import load_any, load_release, load_state  # noqa: E402
+from motionrt_training.checkpoint import load_any, load_release, load_state, release  # noqa: E402
+from motionrt_training.networks.tmr import TMR  # noqa: E402
 from motionrt_training.packed import PackedClip, PackedCorpus, load_packed, statistics  # noqa: E402
-from motionrt_training.recipes.tmr import parser, release  # noqa: E402
+from motionrt_training.recipes.tmr import parser  # noqa: E402
 from motionrt_training.text_cache import TextFeatures, cached_features  # noqa: E402
 from motionrt_training.tmr_task import TmrSettings, TmrTask  # noqa: E402
 from motionrt_training.trainer import Schedule, Trainer  # noqa: E402
@@ -183,9 +184,9 @@ def test_statistics_leave_the_test_split_out() -> None:
 def test_a_release_holds_the_averaged_weights_in_half_precision(tmp_path: Path) -> None:
     task = task_of()
     Trainer(task, Schedule(**{**vars(QUICK), "validate_every": 3}), tmp_path, {"network": task.model.config}).run()
-    release(tmp_path / "best.pt", tmp_path / "tmr.safetensors")
-    model, metadata = load_release(tmp_path / "tmr.safetensors")
-    best = load_any(tmp_path / "best.pt")
+    release(tmp_path / "best.pt", tmp_path / "tmr.safetensors", "tmr")
+    model, metadata = load_release(tmp_path / "tmr.safetensors", TMR)
+    best = load_any(tmp_path / "best.pt", TMR)
     for one, other in zip(model.parameters(), best.parameters(), strict=True):
         assert torch.equal(one, other.half().float())
     assert json.loads(metadata["config"]) == task.model.config

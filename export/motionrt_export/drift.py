@@ -1,0 +1,92 @@
+"""What small errors add up to: a file and the torch module walk the same paths, or fill the same gaps."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from motionrt.metrics.locomotion import foot_skate, keypoint_error
+from motionrt.metrics.walk_report import LocomotionMeasures
+from motionrt.motion.features import ccf219
+from motionrt_export.examples import Array
+from motionrt_export.measures import Figures
+from motionrt_export.references import Reference
+from motionrt_export.transitions import Transitions
+from motionrt_export.walks import Walked, Walks
+
+SECOND = 30  # frames after which two walks are compared joint by joint
+LEAST_M, LEAST_CM = 0.02, 0.05  # smaller deviations from a path and smaller slides do not count as different
+
+Floats = npt.NDArray[np.float64]
+
+
+class WalkDrift:
+    """N steps at stride 1. Errors move a footfall; how somebody walks must stay the same."""
+
+    def __init__(self, walks: Walks, *, steps: int = 1000, characters: int = 16) -> None:
+        self._walks, self._steps, self._characters = walks, steps, characters
+
+    def __call__(self, found: Reference, expected: Reference) -> Figures:
+        """Figures of ``walk``; a ratio is ours to torch's, so 1 is as good and less is better."""
+        history, _, _ = self._walks.histories(self._characters, seed=1)
+        walked = [self._walks.walk(graph, history, self._steps, seed=2) for graph in (found, expected)]
+        ours, theirs = (measures(walk) for walk in walked)
+        soon = min(SECOND, self._steps) - 1
+        return {
+            "walk": {
+                "joints_cm_after_1_s": keypoint_error(*(joints(walk.frames[:, soon]) for walk in walked)),
+                "joints_cm_at_the_end": keypoint_error(*(joints(walk.frames[:, -1]) for walk in walked)),
+                "path_deviation_ratio": ratio(ours["path_m"], theirs["path_m"], LEAST_M),
+                "foot_skate_ratio": ratio(ours["skate_cm"], theirs["skate_cm"], LEAST_CM),
+                "height_cm": 100.0 * abs(ours["height_m"] - theirs["height_m"]),
+                "waypoints_missed": max(0.0, theirs["reached"] - ours["reached"]),
+            }
+        }
+
+
+class TransitionDrift:
+    """Gaps that both fill."""
+
+    def __init__(self, transitions: Transitions, *, count: int = 32) -> None:
+        self._transitions, self._count = transitions, count
+
+    def __call__(self, found: Reference, expected: Reference) -> Figures:
+        """Figures of ``transition``: distances of joints in the gap and in its last frame, ratio of the slides."""
+        feeds = self._transitions(self._count, 0, seed=3)
+        ours, theirs = (joints(graph(feeds)["motion"]) for graph in (found, expected))
+        hidden = feeds["hidden"]
+        rows, last = np.arange(len(hidden)), hidden.shape[1] - 1 - hidden[:, ::-1].argmax(axis=1)
+        slides = [float(np.mean([foot_skate(motion) for motion in made])) for made in (ours, theirs)]
+        return {
+            "transition": {
+                "joints_cm": keypoint_error(ours[hidden], theirs[hidden]),
+                "end_cm": keypoint_error(ours[rows, last], theirs[rows, last]),
+                "foot_skate_ratio": ratio(slides[0], slides[1], LEAST_CM),
+            }
+        }
+
+
+def measures(walked: Walked) -> dict[str, float]:
+    """Means over the characters, each along its path as far as it has come."""
+    reports = []
+    for frames, goals, path in zip(walked.frames, walked.goals, walked.paths, strict=True):
+        behind = path[: int((path == goals[-1]).all(axis=1).argmax()), :2]  # waypoints that were reached or passed
+        line = np.concatenate([frames[:1, [216, 218]], behind, goals[-1:, :2]])
+        reports.append(LocomotionMeasures.of(joints(frames), ccf219.FPS, line, behind if len(behind) else None))
+    return {
+        "path_m": float(np.mean([report.path_deviation_m for report in reports])),
+        "skate_cm": float(np.mean([report.foot_skate_cm for report in reports])),
+        "height_m": float(np.mean([report.standing_height_m for report in reports])),
+        "reached": float(np.mean([report.waypoints_reached or 0.0 for report in reports])),
+    }
+
+
+def ratio(ours: float, theirs: float, least: float) -> float:
+    """Ours to theirs, where differences far below ``least`` are none."""
+    return (ours + least) / (theirs + least)
+
+
+def joints(frames: Array) -> Floats:
+    """Joint positions (..., 24, 3), metres, of frames (..., 219) with the nearest proper rotations."""
+    rows = ccf219.decode(np.asarray(frames, dtype=np.float32).reshape(-1, ccf219.WIDTH)).positions()
+    return np.asarray(rows.reshape(*frames.shape[:-1], *rows.shape[1:]), dtype=np.float64)
