@@ -13,6 +13,7 @@ from pathlib import Path
 
 import matplotlib as mpl
 import numpy as np
+import numpy.typing as npt
 
 from motionrt import Motion, Runtime
 from motionrt.motion.rotations import axis_rotation
@@ -48,17 +49,25 @@ def draw(axis: plt.Axes, motion: Motion) -> None:
     for column, frame in enumerate(np.linspace(0, motion.frames - 1, POSES).astype(int)):
         joints = motion.positions()[frame]
         local = (joints - joints[0] * [1, 0, 1]) @ turn.T
-        for joint, parent in enumerate(SMPL24.parents):
-            if parent >= 0:
-                side = SMPL24.names[joint].split("_")[0]
-                xs, ys = local[[parent, joint], 0] + column * SPACING, local[[parent, joint], 1]
-                axis.plot(xs, ys, color=COLOURS.get(side, COLOURS["middle"]), lw=2, solid_capstyle="round")
-        head = local[SMPL24.index("head")]
-        axis.plot(head[0] + column * SPACING, head[1] + 0.08, "o", color=COLOURS["middle"], ms=6)
+        bones(axis, local[:, :2] + [column * SPACING, 0.0])
     axis.axhline(0, color="#a0aec0", lw=0.8, zorder=0)
     top = max(1.9, float(motion.positions()[..., 1].max()) + 0.2)
     axis.set(xlim=(-0.6, POSES * SPACING - 0.35), ylim=(-0.1, top), aspect="equal")
     axis.axis("off")
+
+
+def bones(
+    axis: plt.Axes, points: npt.NDArray[np.floating], lw: float = 2.0, alpha: float = 1.0, zorder: float = 2
+) -> None:
+    """A stick figure of the joints ``(24, 2)`` as they lie on the paper."""
+    for joint, parent in enumerate(SMPL24.parents):
+        if parent >= 0:
+            colour = COLOURS.get(SMPL24.names[joint].split("_")[0], COLOURS["middle"])
+            ends = points[[parent, joint]].T
+            axis.plot(*ends, color=colour, lw=lw, alpha=alpha, solid_capstyle="round", zorder=zorder)
+    neck, head = (points[SMPL24.index(name)] for name in ("neck", "head"))
+    crown = head + 0.8 * (head - neck)
+    axis.plot(*crown, "o", color=COLOURS["middle"], ms=3 * lw, alpha=alpha, mew=0, zorder=zorder)
 
 
 if __name__ == "__main__":

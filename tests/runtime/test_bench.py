@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from dataclasses import dataclass
 from importlib.metadata import EntryPoint
+from types import SimpleNamespace
 
 import pytest
 from fake_embedder import FakeEmbedder
@@ -41,6 +42,14 @@ def test_contenders_take_turns_and_warm_up_before_every_turn() -> None:
     timings = interleaved({"a": lambda: calls.append("a"), "b": lambda: calls.append("b")}, rounds=2, calls=3)
     assert "".join(calls) == "aaaabbbbaaaabbbb"
     assert (timings["a"].runs, timings["b"].runs) == (6, 6)
+
+
+def test_a_turn_that_takes_long_is_cut_short(monkeypatch: pytest.MonkeyPatch) -> None:
+    clock = iter(range(100))
+    monkeypatch.setattr(
+        "motionrt.bench.timing.time", SimpleNamespace(perf_counter=lambda: next(clock), sleep=lambda _: None)
+    )
+    assert interleaved({"a": lambda: None}, rounds=2, calls=10)["a"].runs == 2
 
 
 def test_percentiles_are_milliseconds() -> None:

@@ -23,7 +23,7 @@ from motionrt_training.recipes import transnet as recipe
 from motionrt_training.trainer import Schedule, Trainer
 
 FPS = 30.0
-SETTINGS = recipe.TransNetSettings(d=32, layers=1, heads=2, ff=32, dropout=0.0, batch=8, grow=5)
+SETTINGS = recipe.TransNetSettings(d=32, layers=1, heads=2, ff=32, dropout=0.0, batch=8, grow=5, examples=64)
 
 
 def hidden_from(first: int, stop: int, batch: int = 1) -> torch.Tensor:
@@ -192,13 +192,13 @@ def test_training_beats_coasting_on_held_out_walks_and_goes_on_where_it_stopped(
     with torch.no_grad():
         before = task.validate(task.model.eval())
     notes = {"network": task.model.config}
-    schedule = Schedule(steps=30, lr=3e-3, warmup=1, ema=0.5, validate_every=30, bf16=False, device="cpu")
+    schedule = Schedule(steps=20, lr=3e-3, warmup=1, ema=0.5, validate_every=20, bf16=False, device="cpu")
     Trainer(task, schedule, tmp_path / "run", notes).run()
     again = recipe.TransNetTask(corpus(), SETTINGS, seed=0)
-    longer = Schedule(steps=60, lr=3e-3, warmup=1, ema=0.5, validate_every=30, bf16=False, device="cpu")
+    longer = Schedule(steps=40, lr=3e-3, warmup=1, ema=0.5, validate_every=20, bf16=False, device="cpu")
     trainer = Trainer(again, longer, tmp_path / "run", notes)
     after = trainer.run()
-    assert trainer.step == 60
+    assert trainer.step == 40
     assert after["joint_cm"] < 0.8 * before["joint_cm"]
 
 

@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import cycle
 
 import numpy as np
 
+from motionrt.bench.moves import Moves
 from motionrt.bench.timing import Call
 from motionrt.motion.features import guo263
 from motionrt.motion.skeleton import FloatArray
 from motionrt.retrieval import Clip, ExactIndex, Gallery
 from motionrt.retrieval.records import ModelStamp, window_table
 from motionrt.retrieval.windows import WINDOW_FRAMES
-from motionrt.runtime import Runtime
 
 TEXT, MOTION, ANSWER = "text encoding", "motion encoding, 200 frames", "text to top 10 of 10,000"
 SEARCH_SIZES = (1_000, 10_000, 100_000)
@@ -34,11 +33,13 @@ class Workload:
         texts: sentences of 12 to 16 tokens.
         features: ``(200, 263)`` feature window.
         vectors: ``(100000, 256)`` random unit vectors; a smaller search takes the first of them.
+        moves: what is walked, changed into and posed.
     """
 
     texts: tuple[str, ...]
     features: FloatArray
     vectors: FloatArray
+    moves: Moves
 
     @classmethod
     def standard(cls) -> Workload:
@@ -47,7 +48,14 @@ class Workload:
         features = random.normal(size=(WINDOW_FRAMES, guo263.WIDTH)).astype(np.float32)
         vectors = random.normal(size=(max(SEARCH_SIZES), 256)).astype(np.float32)
         vectors /= np.linalg.norm(vectors, axis=1, keepdims=True)
-        return cls(TEXTS, features, vectors)
+        return cls(TEXTS, features, vectors, Moves.standard())
+
+    def gallery(self, model: str, fingerprint: str) -> Gallery:
+        """10,000 clips with the first of the vectors, as if that model had made them."""
+        count = 10_000
+        clips = tuple(Clip(f"{number:05d}", 10.0) for number in range(count))
+        windows = window_table([[(0.0, 10.0)]] * count)
+        return Gallery(clips, self.vectors[:count], windows, ModelStamp(model, fingerprint))
 
 
 def search_case(size: int) -> str:
@@ -55,27 +63,7 @@ def search_case(size: int) -> str:
     return f"search {size:,}"
 
 
-def own_cases(runtime: Runtime, work: Workload) -> dict[str, Call]:
-    """What motionrt does for every case, by name."""
-    texts, model = cycle(work.texts), runtime.model
-    gallery = _gallery(work, model.name, model.fingerprint)
-    cases: dict[str, Call] = {
-        TEXT: lambda: model.embed_text([next(texts)]),
-        MOTION: lambda: model.embed_motion([work.features]),
-    }
-    for size in SEARCH_SIZES:
-        cases[search_case(size)] = _search(work.vectors[:size], work.vectors[-1])
-    cases[ANSWER] = lambda: runtime.retrieve(next(texts), TOP, gallery)
-    return cases
-
-
-def _search(vectors: FloatArray, query: FloatArray) -> Call:
+def search_call(vectors: FloatArray, query: FloatArray) -> Call:
+    """One exact search."""
     index = ExactIndex(vectors)
     return lambda: index.nearest(query, TOP)
-
-
-def _gallery(work: Workload, name: str, fingerprint: str) -> Gallery:
-    count = 10_000
-    clips = tuple(Clip(f"{number:05d}", 10.0) for number in range(count))
-    windows = window_table([[(0.0, 10.0)]] * count)
-    return Gallery(clips, work.vectors[:count], windows, ModelStamp(name, fingerprint))

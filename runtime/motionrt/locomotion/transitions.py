@@ -121,7 +121,7 @@ def locked(window: Motion) -> Motion:
     root = window.root + (fixed.root - window.root) * share[:, None]
     keep = share == 0
     rotations[keep] = window.rotations[keep]
-    return replace(window, rotations=rotations, root=root)
+    return replace(window, rotations=rotations.astype(np.float32), root=root)
 
 
 def _seed_frames(seed: Motion) -> FloatArray:
@@ -153,4 +153,4 @@ def _exact(window: Motion, tail: Motion, seed: Motion) -> Motion:
     known = min(seed.frames, SEED)
     rotations[SEED - known : SEED], root[SEED - known : SEED] = seed.rotations[-known:], seed.root[-known:]
     rotations[-tail.frames :], root[-tail.frames :] = tail.rotations, tail.root
-    return replace(window, rotations=rotations, root=root)
+    return replace(window, rotations=rotations.astype(np.float32), root=root)

@@ -134,15 +134,15 @@ def test_the_model_sees_the_world_from_the_target() -> None:
     last = ccf219.decode(frames[0, -1:])
     np.testing.assert_allclose(last.root[0, [0, 2]], 0, atol=1e-6)
     assert abs(float(heading(last)[0])) < 1e-5
-    np.testing.assert_allclose(
-        frames[0, :SEED], ccf219.encode(canonicalise(seed[-SEED:], Goal(4, -2, 2.5))), atol=1e-5
-    )
+    np.testing.assert_allclose(frames[0, :SEED], ccf219.encode(canonicalise(seed[-SEED:], Goal(4, -2, 2.5))), atol=1e-5)
 
 
 def test_a_transition_does_not_depend_on_where_in_the_world_it_happens() -> None:
     seed, elsewhere = walking(60, FPS), Goal(7, -3, 1.9)
     here = transition(glides, seed, POSE, Goal(0.5, 1.5, 0.4))
-    there = transition(glides, uncanonicalise(seed, elsewhere), uncanonicalise(placed(POSE, Goal(0.5, 1.5, 0.4)), elsewhere))
+    there = transition(
+        glides, uncanonicalise(seed, elsewhere), uncanonicalise(placed(POSE, Goal(0.5, 1.5, 0.4)), elsewhere)
+    )
     np.testing.assert_allclose(there.positions(), uncanonicalise(here, elsewhere).positions(), atol=1e-4)
 
 
