@@ -10,7 +10,18 @@ from motionrt_export.layers import Encoder, Norm, constant, linear
 from motionrt_export.standing import ORDER, TURNING, Standing, joined, ordered, seen, unseen
 from motionrt_training.networks.motion_transformer import MotionTransformer
 from motionrt_training.networks.transformer import sinusoidal_positions
-from motionrt_training.networks.transnet import FADE, GOAL, PELVIS, TIME, TransNet, clock, fill, find_gap, frames_at
+from motionrt_training.networks.transnet import (
+    FADE,
+    GOAL,
+    PELVIS,
+    TIME,
+    TransNet,
+    clock,
+    fill,
+    find_gap,
+    frames_at,
+    smoothed,
+)
 from motionrt_training.networks.transnet import FRAMES as WINDOW
 from motionrt_training.networks.transnet import _distances as distances
 from motionrt_training.networks.transnet import _rates as rates_where_seen
@@ -95,14 +106,16 @@ class WalkNetGraph(nn.Module):
         self.back, self.changes = constant(order.argsort()), constant(changes(HISTORY))
         self.mean = constant(torch.cat((source.pose_mean[order], torch.zeros(WIDTH))))
         self.rate = constant(1.0 / torch.cat((source.pose_std, source.rate_std))[columns])
-        scale = source.change_std[0, order]
+        moving = (1.0 - source.still)[order]
+        self.moving, self.resting = constant(moving), constant((source.pose_mean * source.still)[order])
+        scale = source.change_std[0, order] * moving
         self.body = Body(source.body, HISTORY, columns, AIM + 1, order, scale, first_only=True)
 
     def forward(self, frames: Tensor, speed: Tensor) -> Tensor:
         """(B, 30, 219), (B,) -> (B, 219)."""
         frames = ordered(frames)
         body = Standing.of(frames[:, -1:])
-        local = seen(frames, body)
+        local = seen(frames, body) * self.moving + self.resting
         inputs = joined(local, self.changes @ local)  # the matrix takes differences, exactly
         aim = torch.cat((body.goal(), speed[:, None] - 1.0), dim=1)
         change = self.body((inputs - self.mean) * self.rate, aim)
@@ -128,6 +141,7 @@ class TransNetGraph(nn.Module):
         columns = torch.cat((*whole, *parts, (POSES + 1) * WIDTH + 2 * PELVIS + torch.arange(TIME)))
         rows, scale = torch.cat((order, WIDTH + pelvis)), torch.cat((change_std, change_std[:PELVIS]))
         self.body = Body(source.body, WINDOW, columns, GOAL, rows, scale)
+        self.smooth = constant(smoothed(torch.eye(WINDOW)[None])[0])
 
     def forward(self, frames: Tensor, hidden: Tensor) -> Tensor:
         """(B, 120, 219), (B, 120) bool -> (B, 120, 219)."""
@@ -145,7 +159,8 @@ class TransNetGraph(nn.Module):
         inputs = joined(
             (joined(line, *ends, rates, *turned) - self.mean) * self.rate, clock(hidden, from_start, to_end)
         )
-        change, pelvis = self.body(inputs, seed.goal()).split((WIDTH, PELVIS), dim=2)
+        answer = self.smooth @ self.body(inputs, seed.goal())
+        change, pelvis = answer.split((WIDTH, PELVIS), dim=2)
         window = ((1.0 - torch.exp(from_start * (-1.0 / FADE))) * (1.0 - torch.exp(to_end * (-1.0 / FADE))))[..., None]
         share = (from_start / (from_start + to_end).clamp(min=1.0))[..., None]
         line, pelvis = line + change * window, unseen(pelvis * (window * (1.0 - share)), seed.turn())

@@ -19,6 +19,9 @@ from motionrt_training.walk_trial import Trial
 FOOT = 0.03  # metres and ...
 STEP = 0.01  # ... metres per frame at which errors of the feet are large
 UP = 3.0  # errors in height count this many times: the floor is near
+DRIFT, DRIFTED = 0.1, 0.015  # steady error of the history: part of the standard deviation, and beyond it
+STILL = 0.02  # standard deviation of a column below which it counts as one that never changes
+JOINTS = slice(9, 216)  # columns of the joints below the pelvis
 SHORTEST = FRAMES + 6  # frames of a stretch that are left at the first frame of a window
 
 
@@ -31,13 +34,13 @@ class WalkSettings:
     patch: int = option(5, "frames that form one token; 1 is the paper's network")
     batch: int = option(128, "windows per batch")
     farthest: int = option(100, "frames from now to the farthest goal")
-    fading: float = option(8.0, "frames in which an error of the history is to fade to a third")
+    fading: float = option(4.0, "frames in which an error of the history is to fade to a third")
     noise: float = option(1.0, "scale of the noise on the history")
-    chain: int = option(2, "most predictions in a row before the one that is trained")
+    chain: int = option(4, "most predictions in a row before the one that is trained")
     chunk: int = option(8, "most frames kept of each")
-    chain_after: int = option(400, "steps before --chain begins")
-    feet: float = option(0.05, "weight of the feet's positions and speeds")
-    skate: float = option(0.1, "weight of the speed of planted toes")
+    chain_after: int = option(800, "steps before --chain begins")
+    feet: float = option(0.02, "weight of the feet's positions and speeds")
+    skate: float = option(0.05, "weight of the speed of planted toes")
 
 
 class WalkTask:
@@ -53,6 +56,8 @@ class WalkTask:
         weight = train.weight[self.starts].astype(np.float64)
         self.odds = np.cumsum(weight / weight.sum())
         self._set_statistics()
+        self.drifting = torch.ones(self.frames.shape[1])  # all columns but the place in the world, which is exact
+        self.drifting[[216, 218]] = 0.0
         self.trial = Trial(val)
 
     def batch(self, step: int) -> dict[str, Tensor]:
@@ -108,10 +113,8 @@ class WalkTask:
         """The first frames with noise, followed by what the network itself made of them."""
         history = batch["window"][:, :FRAMES]
         white = torch.randn_like(history) * net.rate_std * 0.5
-        steady = torch.randn_like(history[:, :1]) * net.pose_std * 0.03
-        still = torch.ones(history.shape[2], device=history.device)
-        still[[216, 218]] = 0.0  # the place in the world is exact
-        history = history + self.settings.noise * batch["noise"] * (white + steady * still)
+        steady = torch.randn_like(history[:, :1]) * (DRIFT * net.pose_std + DRIFTED) * self.drifting
+        history = orthonormal(history + self.settings.noise * batch["noise"] * (white + steady))
         with torch.no_grad():
             for kept in batch["kept"].tolist():
                 made = net(history, batch["speed"])[:, :kept]
@@ -150,7 +153,9 @@ class WalkTask:
         future = seen_from(window[:, FRAMES:], turn, place)
         net = self.model
         net.pose_mean.copy_(local.mean((0, 1)))
-        net.pose_std.copy_(local.std((0, 1)).clamp(min=0.01))
+        spread = local.std((0, 1))
+        net.pose_std.copy_(spread.clamp(min=0.01))
+        net.still[JOINTS] = (spread < STILL).float()[JOINTS]
         net.rate_std.copy_(local.diff(dim=1).std((0, 1)).clamp(min=0.001))
         change = (future - local[:, -1:]).std(0)
         net.change_std.copy_(torch.maximum(change, 0.03 * net.pose_std).clamp(min=0.001))

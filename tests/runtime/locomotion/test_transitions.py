@@ -107,7 +107,7 @@ def test_a_transition_ends_in_the_target_at_its_goal(x: float, z: float, yaw: fl
     assert found.fps == FPS
     body = POSE.positions()[0] - POSE.root[0] * [1, 0, 1]
     turn = Rotation.from_euler("y", yaw - float(heading(POSE)[0]))
-    np.testing.assert_allclose(found.positions()[-1], turn.apply(body) + [x, 0, z], atol=2e-5)
+    np.testing.assert_allclose(found.positions()[-1], turn.apply(body) + np.array([x, 0, z]), atol=2e-5)
 
 
 def test_without_a_goal_the_target_stays_where_it_is_to_the_last_bit(tiny: TransitionModel) -> None:
@@ -139,10 +139,9 @@ def test_the_model_sees_the_world_from_the_target() -> None:
 
 def test_a_transition_does_not_depend_on_where_in_the_world_it_happens() -> None:
     seed, elsewhere = walking(60, FPS), Goal(7, -3, 1.9)
-    here = transition(glides, seed, POSE, Goal(0.5, 1.5, 0.4))
-    there = transition(
-        glides, uncanonicalise(seed, elsewhere), uncanonicalise(placed(POSE, Goal(0.5, 1.5, 0.4)), elsewhere)
-    )
+    aim = placed(POSE, Goal(0.5, 1.5, 0.4))
+    here = transition(glides, seed, aim)
+    there = transition(glides, uncanonicalise(seed, elsewhere), uncanonicalise(aim, elsewhere))
     np.testing.assert_allclose(there.positions(), uncanonicalise(here, elsewhere).positions(), atol=1e-4)
 
 

@@ -79,7 +79,7 @@ def interpolate(window: Motion) -> Motion:
     between = quaternion_to_matrix(slerp(ends[:1], ends[1:], share[:, None])).astype(np.float32)
     root = window.root[SEED - 1] + share[:, None] * (window.root[WINDOW - 1] - window.root[SEED - 1])
     rotations, roots = window.rotations.copy(), window.root.copy()
-    rotations[SEED - 1 :], roots[SEED - 1 :] = between, root
+    rotations[SEED:], roots[SEED:] = between[1:], root[1:]
     return dataclasses.replace(window, rotations=rotations, root=roots)
 
 
@@ -180,7 +180,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     args = parser().parse_args(arguments)
     model = torch_model(args.checkpoint) if args.checkpoint else TransitionModel(Sessions(args.models), args.variant)
     fills: dict[str, Fill] = {
-        "real motion": lambda windows: list(windows),
+        "real motion": list,
         "interpolation": lambda windows: [interpolate(window) for window in windows],
         "TransNet": lambda windows: filled(model, windows),
         "TransNet, feet locked": lambda windows: [lock_feet(motion) for motion in filled(model, windows)],

@@ -64,7 +64,7 @@ class TransNet(nn.Module):
     change_std: Tensor  # (219,) of the wanted correction, before it fades
 
     def __init__(
-        self, d: int = 512, layers: int = 3, heads: int = 8, ff: int = 1024, dropout: float = 0.0, patch: int = 2
+        self, d: int = 512, layers: int = 3, heads: int = 8, ff: int = 1024, dropout: float = 0.0, patch: int = 4
     ) -> None:
         super().__init__()
         self.config = {"d": d, "layers": layers, "heads": heads, "ff": ff, "dropout": dropout, "patch": patch}
@@ -77,7 +77,7 @@ class TransNet(nn.Module):
         nn.init.zeros_(self.body.out.weight)  # an untrained network coasts
 
     def forward(self, frames: Tensor, hidden: Tensor) -> Tensor:
-        """frames (B, 120, 219), hidden (B, 120) bool -> (B, 120, 219); what is hidden in `frames` is not read."""
+        """Frames (B, 120, 219), hidden (B, 120) bool -> (B, 120, 219); what is hidden in `frames` is not read."""
         line = self.line(frames, hidden)
         found = self.corrected(line, self.body(line.inputs))
         return torch.where(hidden[..., None], from_body(found, line.turn, line.place), frames)
@@ -106,8 +106,8 @@ class TransNet(nn.Module):
         return Line(frames, turn, place, seed_turn, seed_place, window[..., None], share[..., None], inputs)
 
     def corrected(self, line: Line, answer: Tensor) -> Tensor:
-        """The filled frames and the correction that the network gave: (B, T, 231) -> (B, T, 219), seen from the target."""
-        answer = answer.float()
+        """The filled frames with the correction that the network gave: (B, T, 231) -> (B, T, 219)."""
+        answer = smoothed(answer.float())
         change = answer[..., :WIDTH] * self.change_std * line.window
         pelvis = answer[..., WIDTH:] * self.change_std[_PELVIS] * (line.window * (1.0 - line.share))
         turned = yawed(pelvis[..., :9].unflatten(-1, (3, 3)), line.seed_turn).flatten(2)
@@ -134,8 +134,8 @@ def find_gap(hidden: Tensor) -> Gap:
 def fill(frames: Tensor, gap: Gap) -> Tensor:
     """Every column coasts through the gaps; visible frames stay.
 
-    Over a gap of L frames, t frames in: x = x0 + a t + (v - a) f(t) + (w - a) (f(L) - f(L - t)), f(t) = c (1 - e^(-t/c)),
-    with the changes per frame v before and w behind the gap and a so that the end is met. Where v or w is not to be
+    Over a gap of L frames, t frames in: x = x0 + a t + (v - a) f(t) + (w - a) (f(L) - f(L - t)) with
+    f(t) = c (1 - e^(-t/c)), the changes per frame v before and w behind the gap, and a so that the end is met. Where v or w is not to be
     seen (behind a single target), its term is left out.
     """
     start, end = frames_at(frames, gap.before), frames_at(frames, gap.after)
@@ -165,6 +165,13 @@ def _change(frames: Tensor, gap: Gap, first: Tensor, second: Tensor) -> tuple[Te
     first, second = first.clamp(0, last), second.clamp(0, last)
     seen = there & (gap.before.gather(1, first) == first) & (gap.before.gather(1, second) == second)
     return frames_at(frames, second) - frames_at(frames, first), seen[..., None].to(frames.dtype)
+
+
+def smoothed(answer: Tensor) -> Tensor:
+    """Binomial mean over five frames of (B, T, D): no jitter between frames; sums of slices, so float32 always."""
+    length = answer.shape[1]
+    x = torch.cat((answer[:, :1], answer[:, :1], answer, answer[:, -1:], answer[:, -1:]), dim=1)
+    return sum((w / 16.0 * x[:, k : k + length] for k, w in enumerate((1.0, 4.0, 6.0, 4.0))), x[:, 4:] / 16.0)
 
 
 def clock(hidden: Tensor, from_start: Tensor, to_end: Tensor) -> Tensor:

@@ -26,6 +26,7 @@ class WalkNet(nn.Module):
     pose_std: Tensor  # (219,)
     rate_std: Tensor  # (219,) of changes between neighbours
     change_std: Tensor  # (30, 219) of changes since the last frame
+    still: Tensor  # (219,) 1 for columns that never change, as those of a hinge do
 
     def __init__(
         self, d: int = 512, layers: int = 3, heads: int = 8, ff: int = 1024, dropout: float = 0.0, patch: int = 1
@@ -37,12 +38,18 @@ class WalkNet(nn.Module):
         self.register_buffer("pose_std", torch.ones(WIDTH))
         self.register_buffer("rate_std", torch.ones(WIDTH))
         self.register_buffer("change_std", torch.ones(FRAMES, WIDTH))
+        self.register_buffer("still", torch.zeros(WIDTH))
 
     def forward(self, frames: Tensor, speed: Tensor) -> Tensor:
         """frames (B, 30, 219) in the goal's frame, speed (B,) m/s -> the next frames (B, 30, 219), same frame."""
         local, turn, place = to_body(frames)
-        changes = self.body(self.inputs(local, turn, place, speed))
-        return from_body(local[:, -1:] + changes.float() * self.change_std, turn, place)
+        local = self.settled(local)
+        changes = self.body(self.inputs(local, turn, place, speed)).float() * (1.0 - self.still)
+        return from_body(local[:, -1:] + changes * self.change_std, turn, place)
+
+    def settled(self, local: Tensor) -> Tensor:
+        """Columns that never change, as they always are: nothing in the data would bring them back from an error."""
+        return local * (1.0 - self.still) + self.pose_mean * self.still
 
     def inputs(self, local: Tensor, turn: Tensor, place: Tensor, speed: Tensor) -> Tensor:
         """(B, 30, 446): normalised pose, its rate, the goal as seen from the body, the speed."""

@@ -18,14 +18,14 @@ from typing import Any, NamedTuple, cast
 import numpy as np
 import numpy.typing as npt
 import torch
-import torch.nn.functional as F
 from torch import Tensor, nn
 
 from motionrt.motion import SMPL24, Motion
 from motionrt.motion.features import ccf219
-from motionrt.motion.features.ccf219 import FPS, WIDTH
+from motionrt.motion.features.ccf219 import FPS
 from motionrt_training.corpora.recordings import Recordings, load_recordings
-from motionrt_training.networks.transnet import FRAMES, SEED, TransNet, heading_turn, to_body, turned_pelvis
+from motionrt_training.networks.transnet import FRAMES, SEED, TransNet, turned_pelvis
+from motionrt_training.networks.walknet import heading_turn, to_body
 from motionrt_training.options import add_options, from_namespace, option
 from motionrt_training.trainer import Schedule, Trainer
 
@@ -37,6 +37,7 @@ EARLIEST = 45  # first frame that is ever hidden
 TAIL = 20  # most visible frames after the gap
 CALM = 0.3  # m/s, mean over the joints: below this a pose may be taken for a held one
 FEET = tuple(SMPL24.index(name) for name in ("left_ankle", "right_ankle", "left_foot", "right_foot"))
+SLOW = 0.5  # m/s: errors of velocities below this count as squares
 STANDING = (0.075, 0.075, 0.01, 0.01)  # heights of FEET in a standing pose, metres
 ARMS = [SMPL24.index(f"{side}_{name}") for side in ("left", "right") for name in ("shoulder", "elbow", "wrist", "hand")]
 
@@ -50,8 +51,9 @@ class TransNetSettings:
     heads: int = option(8, "attention heads")
     ff: int = option(1024, "feed-forward width")
     dropout: float = option(0.05, "dropout rate")
-    patch: int = option(2, "frames per token (the paper: 1)")
+    patch: int = option(4, "frames per token (the paper: 1)")
     batch: int = option(24, "windows per batch")
+    examples: int = option(1024, "windows that the statistics come from")
     grow: int = option(300, "steps in which the gap grows to frames 60..118")
     frozen: float = option(0.3, "part of the calm seeds that are made to stand still")
     held: float = option(0.5, "part of the visible calm ends that are made to stand still")
@@ -59,8 +61,10 @@ class TransNetSettings:
     gaps: float = option(0.1, "part of the windows with a shorter gap elsewhere")
     arms: float = option(0.2, "part of the windows that take the arms of another")
     place: float = option(6.0, "weight of the joints' places, metres")
-    speed: float = option(0.5, "weight of the joints' velocities, m/s")
-    feet: float = option(3.0, "weight of the speed of feet that stand, m/s")
+    speed: float = option(0.2, "weight of the joints' velocities, m/s")
+    feet: float = option(0.2, "weight of the speed of feet that stand, m/s")
+    skate: float = option(0.03, "weight of the foot skate, cm per frame")
+    skate_after: int = option(2226, "steps before the foot skate counts; where to go is learnt first")
 
 
 class Windows(NamedTuple):
@@ -87,13 +91,13 @@ class TransNetTask:
         self.settings, self.seed = settings, seed
         torch.manual_seed(seed)
         size = settings.d, settings.layers, settings.heads, settings.ff, settings.dropout, settings.patch
-        self.model: nn.Module = TransNet(*size)
+        self.model: TransNet = TransNet(*size)
         self.train = windows([motion for _, motion in recordings.split("train")], WARPS)
         self.val = windows([motion for _, motion in recordings.split("val")], WARPS[:1])
-        set_statistics(cast("TransNet", self.model), *self._examples(self.train, np.random.default_rng(seed), 2048))
+        set_statistics(self.model, *self._examples(self.train, np.random.default_rng(seed), settings.examples))
 
     def batch(self, step: int) -> dict[str, Tensor]:
-        """frames (B, 120, 219) seen from the target and hidden (B, 120)."""
+        """Frames (B, 120, 219) seen from the target and hidden (B, 120)."""
         s, rng = self.settings, np.random.default_rng((self.seed, step))
         starts = self.train.draw(rng, s.batch)
         frames = mirrored(self.train.at(starts), rng.random(s.batch) < 0.5)
@@ -102,24 +106,32 @@ class TransNetTask:
         frames = frozen_seed(frames, (self.train.calm[starts + SEED - 1] < CALM) & (rng.random(s.batch) < s.frozen))
         calm_end = self.train.calm[starts[:, None] + FRAMES - 1 - np.arange(TAIL)].max(1) < CALM
         frames = held_end(frames, last, calm_end & (rng.random(s.batch) < s.held))
-        return {"frames": to_body(frames)[0], "hidden": hidden_frames(first, last)}
+        late = torch.tensor(float(step >= s.skate_after))
+        return {"frames": to_body(frames)[0], "hidden": hidden_frames(first, last), "late": late}
 
     def losses(self, model: nn.Module, batch: Any) -> dict[str, Tensor]:
         """Features, places and velocities of the joints, sliding of standing feet."""
-        net, s = cast("TransNet", model), self.settings
+        net, s = self.model, self.settings
         found = model(batch["frames"], batch["hidden"])[:, EARLIEST - 1 :]
         truth, hidden = (batch[name][:, EARLIEST - 1 :] for name in ("frames", "hidden"))
         with torch.autocast(truth.device.type, enabled=False):
             weight = hidden.float() / hidden.sum(1, keepdim=True)  # (B, T)
             parts = {"feature": _mean(((found - truth) / net.change_std).abs().mean(2), weight)}
-            joints, wanted = joint_positions(found), joint_positions(truth)
+            joints, wanted = joint_positions(found), joint_positions(truth, rounds=0)
             parts["place"] = _mean(_length(joints - wanted).mean(2), weight)
             steps = (hidden[:, 1:] | hidden[:, :-1]).float()  # both seams are in it
             steps = steps / steps.sum(1, keepdim=True)
             rate, true_rate = (FPS * (x[:, 1:] - x[:, :-1]) for x in (joints, wanted))
-            parts["speed"] = _mean(_length(rate - true_rate).mean(2), steps)
+            parts["speed"] = _mean(_huber(rate - true_rate).mean(2), steps)
             parts["feet"] = _mean(sliding(joints, wanted, rate, true_rate), steps)
-            weights = {"feature": 1.0, "place": s.place, "speed": s.speed, "feet": s.feet}
+            parts["skate"] = _mean(skate(joints), steps)
+            weights = {
+                "skate": s.skate * batch["late"],
+                "feature": 1.0,
+                "place": s.place,
+                "speed": s.speed,
+                "feet": s.feet,
+            }
             return {"loss": sum((weights[k] * v for k, v in parts.items()), torch.zeros(())), **parts}
 
     def validate(self, model: nn.Module) -> dict[str, float]:
@@ -131,8 +143,8 @@ class TransNetTask:
         device = next(model.parameters()).device
         with torch.no_grad():
             found = model(frames.to(device), hidden.to(device)).cpu()
-            wanted = joint_positions(frames)[:, SEED - 1 :]
-            measures = {f"{k}": v for k, v in errors(joint_positions(found)[:, SEED - 1 :], wanted).items()}
+            wanted = joint_positions(frames, rounds=0)[:, SEED - 1 :]
+            measures = {f"{k}": v for k, v in errors(joint_positions(found, rounds=3)[:, SEED - 1 :], wanted).items()}
         return {**measures, "score": -measures["joint_cm"] - 10.0 * measures["slide"]}
 
     def _examples(self, source: Windows, rng: np.random.Generator, count: int) -> tuple[Tensor, Tensor]:
@@ -236,11 +248,12 @@ def held_end(frames: Tensor, last: Ints, which: npt.NDArray[np.bool_]) -> Tensor
     return torch.where(held[..., None], frames[:, -1:], frames)
 
 
-def joint_positions(features: Tensor, *, rounds: int = 2) -> Tensor:
-    """(B, T, 219) -> (B, T, 24, 3) metres; rotations are first drawn towards SO(3) by Newton-Schulz steps."""
+def joint_positions(features: Tensor, *, rounds: int = 1) -> Tensor:
+    """(B, T, 219) -> (B, T, 24, 3) metres; predicted rotations are first drawn to SO(3) by Newton-Schulz steps."""
     rotations = features[..., :216].unflatten(-1, (24, 3, 3))
-    size = rotations.square().sum((-1, -2), keepdim=True)
-    rotations = rotations * (3.0 / size.clamp(min=3.0)).sqrt()  # the steps need singular values up to sqrt(3)
+    if rounds:
+        size = rotations.square().sum((-1, -2), keepdim=True)
+        rotations = rotations * (3.0 / size.clamp(min=3.0)).sqrt()  # the steps need singular values up to sqrt(3)
     for _ in range(rounds):
         rotations = 1.5 * rotations - 0.5 * rotations @ (rotations.transpose(-1, -2) @ rotations)
     turned: list[Tensor] = [rotations[..., 0, :, :]]
@@ -257,8 +270,15 @@ def sliding(joints: Tensor, wanted: Tensor, rate: Tensor, true_rate: Tensor) -> 
     feet = list(FEET)
     still = (_length(true_rate[:, :, feet]) < 0.4) & (_height(wanted) < 0.05)
     low = (1.0 - _height(joints.detach()) / 0.03).clamp(0.0, 1.0)
-    speed = _length(rate[:, :, feet])
+    speed = _huber(rate[:, :, feet])
     return (speed * torch.maximum(still.float(), 0.5 * low)).mean(2)
+
+
+def skate(joints: Tensor) -> Tensor:
+    """(B, T-1): what every frame adds to the foot skate, cm  [Continual 4.3]; steps are rounded off below 1 mm."""
+    toes = 100.0 * joints[:, :, list(FEET[2:])]
+    step = ((toes[:, 1:] - toes[:, :-1])[..., [0, 2]].square().sum(-1) + 0.01).sqrt() - 0.1
+    return (step * (2.0 - 0.8 * toes[:, 1:, :, 1].clamp(0.0, 2.5))).sum(2)
 
 
 def errors(found: Tensor, wanted: Tensor) -> dict[str, float]:
@@ -292,6 +312,11 @@ def set_statistics(net: TransNet, frames: Tensor, hidden: Tensor) -> None:
 
 def _height(joints: Tensor) -> Tensor:
     return joints[:, :-1, list(FEET), 1] - joints.new_tensor(STANDING)
+
+
+def _huber(rates: Tensor) -> Tensor:
+    """Length of velocities that are large, and squares of small ones: jitter must not drown everything else."""
+    return (rates.square().sum(-1) + SLOW * SLOW).sqrt() - SLOW
 
 
 def _length(vectors: Tensor) -> Tensor:
