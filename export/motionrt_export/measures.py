@@ -57,7 +57,7 @@ def beyond(figures: Mapping[str, Mapping[str, float]], tolerance: Mapping[str, M
 
 
 def rounded(figures: Mapping[str, Mapping[str, float]]) -> Figures:
-    """For the manifest: cosines rounded down to 4 places, errors rounded up to 2 digits."""
+    """For the manifest: cosines rounded down to 4 places, ratios up to 3, errors up to 2 digits."""
     return {
         output: {name: _rounded(name, value) for name, value in values.items()} for output, values in figures.items()
     }
@@ -70,6 +70,8 @@ def _worse(name: str, a: float, b: float) -> float:
 def _rounded(name: str, value: float) -> float:
     if name.endswith("_min"):
         return math.floor(value * 1e4) / 1e4
+    if name.endswith("_ratio"):
+        return math.ceil(value * 1e3) / 1e3
     if value == 0.0:
         return 0.0
     step = 10.0 ** (math.floor(math.log10(value)) - 1)

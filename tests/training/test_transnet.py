@@ -13,17 +13,20 @@ from scipy.integrate import quad
 from scipy.spatial.transform import Rotation, Slerp
 
 from motionrt.formats.motion_pack import MotionPack
+from motionrt.metrics.locomotion import foot_skate
 from motionrt.motion import SMPL24, Motion
 from motionrt.motion.features import ccf219
 from motionrt.motion.transforms import moved, turned
 from motionrt_training.corpora.recordings import Recordings
 from motionrt_training.evaluate import transitions
-from motionrt_training.networks.transnet import COAST, FRAMES, SEED, TransNet, fill, find_gap
+from motionrt_training.networks.transnet import COAST, FRAMES, SEED, TransNet, fill, find_gap, smoothed
 from motionrt_training.recipes import transnet as recipe
 from motionrt_training.trainer import Schedule, Trainer
 
 FPS = 30.0
-SETTINGS = recipe.TransNetSettings(d=32, layers=1, heads=2, ff=32, dropout=0.0, batch=8, grow=5, examples=64)
+SETTINGS = recipe.TransNetSettings(
+    d=32, layers=1, heads=2, ff=32, dropout=0.0, batch=8, grow=5, examples=64, skate_after=2
+)
 
 
 def hidden_from(first: int, stop: int, batch: int = 1) -> torch.Tensor:
@@ -118,6 +121,13 @@ def test_where_in_the_world_it_happens_does_not_matter() -> None:
     np.testing.assert_allclose(there[:, 9:216], here[:, 9:216], atol=1e-3)
 
 
+def test_smoothing_takes_jitter_away_and_leaves_straight_lines() -> None:
+    line = torch.linspace(0, 1, 20)[None, :, None]
+    torch.testing.assert_close(smoothed(line)[:, 2:-2], line[:, 2:-2])
+    jitter = (-1.0) ** torch.arange(20.0)[None, :, None]
+    assert float(smoothed(jitter)[:, 2:-2].abs().max()) < 1e-6
+
+
 # -- what it is trained on
 
 
@@ -130,6 +140,12 @@ def test_joint_positions_are_those_of_forward_kinematics_and_scaled_rotations_do
     np.testing.assert_allclose(recipe.joint_positions(scaled, rounds=4)[0], motion.positions(), atol=1e-4)
     scaled[..., :216] *= 4.0
     assert bool(recipe.joint_positions(scaled).isfinite().all())
+
+
+def test_the_foot_skate_that_is_trained_on_is_the_one_that_is_measured() -> None:
+    motion = walking(40, FPS, turn=0.2)
+    found = recipe.skate(torch.from_numpy(motion.positions()[None].copy()))
+    assert float(found.mean()) == pytest.approx(foot_skate(motion.positions()), rel=0.03)
 
 
 def test_mirrored_windows_are_mirrored_motions() -> None:

@@ -1,4 +1,4 @@
-"""Every frame that WalkNet is trained on, in memory: features, contacts, goals and speeds, made once and kept in a file."""
+"""Every frame that WalkNet is trained on, in memory: features, contacts, goals, speeds; made once, kept in a file."""
 
 from __future__ import annotations
 

@@ -31,7 +31,7 @@ class Trial:
         self.paths = [winding(rows[-1, [216, 218]], way, rng) for rows, way in zip(self.history, headings, strict=True)]
 
     def measures(self, model: WalkNet) -> dict[str, float]:
-        """Distance from the path (m), share of waypoints reached, foot skate (cm/frame), height error (cm), speed ratio."""
+        """Distance from the path (m), foot skate (cm/frame), errors of height (cm) and pace, waypoints passed."""
         made, routes = self.walk(model)
         away = [
             path_distances(walk[:, [216, 218]], path[:, :2]).mean() for path, walk in zip(self.paths, made, strict=True)

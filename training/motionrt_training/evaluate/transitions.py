@@ -13,21 +13,22 @@ import dataclasses
 import json
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
 
+from motionrt.locomotion.goal_frame import canonicalise
+from motionrt.locomotion.transitions import goal_of, locked
 from motionrt.metrics.locomotion import foot_skate, keypoint_error
 from motionrt.models import Sessions
 from motionrt.models.transnet import SEED, WINDOW, TransitionModel
 from motionrt.motion import Motion
 from motionrt.motion.features import ccf219
 from motionrt.motion.features.ccf219 import FPS
-from motionrt.motion.foot_lock import lock_feet
 from motionrt.motion.rotations import matrix_to_quaternion, quaternion_to_matrix, slerp
 from motionrt.motion.skeleton import FloatArray
-from motionrt.motion.transforms import heading
 from motionrt_training.checkpoint import load_state
 from motionrt_training.corpora.recordings import Recordings, load_recordings
 from motionrt_training.evaluate.tables import markdown
@@ -62,14 +63,12 @@ def held_out(recordings: Recordings, split: str, count: int) -> list[Motion]:
 def _windows(recordings: Recordings, split: str) -> Iterator[Callable[[], Motion]]:
     for _, motion in recordings.split(split):
         for start in range(motion.frames - WINDOW + 1):
-            yield lambda motion=motion, start=start: _from_the_end(motion[start : start + WINDOW])
+            yield partial(_from_the_end, motion, start)
 
 
-def _from_the_end(window: Motion) -> Motion:
-    from motionrt.locomotion.goal_frame import Goal, canonicalise
-
-    last = window[WINDOW - 1 :]
-    return canonicalise(window, Goal(float(last.root[0, 0]), float(last.root[0, 2]), float(heading(last)[0])))
+def _from_the_end(motion: Motion, start: int) -> Motion:
+    window = motion[start : start + WINDOW]
+    return canonicalise(window, goal_of(window[WINDOW - 1 :]))
 
 
 def interpolate(window: Motion) -> Motion:
@@ -183,7 +182,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         "real motion": list,
         "interpolation": lambda windows: [interpolate(window) for window in windows],
         "TransNet": lambda windows: filled(model, windows),
-        "TransNet, feet locked": lambda windows: [lock_feet(motion) for motion in filled(model, windows)],
+        "TransNet, feet locked": lambda windows: [locked(motion) for motion in filled(model, windows)],
     }
     result = compare(fills, held_out(load_recordings(args.corpus), args.split, args.count))
     if args.json:

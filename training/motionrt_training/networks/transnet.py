@@ -135,7 +135,8 @@ def fill(frames: Tensor, gap: Gap) -> Tensor:
     """Every column coasts through the gaps; visible frames stay.
 
     Over a gap of L frames, t frames in: x = x0 + a t + (v - a) f(t) + (w - a) (f(L) - f(L - t)) with
-    f(t) = c (1 - e^(-t/c)), the changes per frame v before and w behind the gap, and a so that the end is met. Where v or w is not to be
+    f(t) = c (1 - e^(-t/c)),
+    the changes per frame v before and w behind the gap, and a so that the end is met. Where v or w is not to be
     seen (behind a single target), its term is left out.
     """
     start, end = frames_at(frames, gap.before), frames_at(frames, gap.after)

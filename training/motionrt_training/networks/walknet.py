@@ -41,7 +41,7 @@ class WalkNet(nn.Module):
         self.register_buffer("still", torch.zeros(WIDTH))
 
     def forward(self, frames: Tensor, speed: Tensor) -> Tensor:
-        """frames (B, 30, 219) in the goal's frame, speed (B,) m/s -> the next frames (B, 30, 219), same frame."""
+        """Frames (B, 30, 219) in the goal's frame, speed (B,) m/s -> the next frames (B, 30, 219), same frame."""
         local, turn, place = to_body(frames)
         local = self.settled(local)
         changes = self.body(self.inputs(local, turn, place, speed)).float() * (1.0 - self.still)

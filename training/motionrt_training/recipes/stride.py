@@ -2,9 +2,10 @@
 
 The stride is a steady walk of WalkNet's own, feet held; the pose is solved for over the pose prior.
 
-    python -m motionrt_training.recipes.stride models --walks runs/walks-val.npz -o runtime/motionrt/_assets/stride.npz
+    python -m motionrt_training.recipes.stride . --walks runs/walks-val.npz -o runtime/motionrt/_assets/stride.npz
 
-The walk begins with a held-out recording and goes straight on until nothing of it is left.
+The walk begins with a held-out recording and goes straight on until nothing of it is left; of several, the one whose
+feet slide least is taken: how somebody sets off is how he walks for a long time.
 """
 
 from __future__ import annotations
@@ -14,37 +15,42 @@ from pathlib import Path
 
 import numpy as np
 
-from motionrt.locomotion import Goal
+from motionrt.formats.motion_pack import MotionPack
 from motionrt.locomotion.poses import solved_standing, stride_of
 from motionrt.locomotion.walking import Crowd, NextFrame, to_motion
+from motionrt.metrics.locomotion import foot_skate
 from motionrt.models import PosePrior, Sessions, WalkModel
 from motionrt.motion import Motion
 from motionrt.motion.features import ccf219
 from motionrt.motion.foot_lock import lock_feet
-from motionrt.formats.motion_pack import MotionPack
 from motionrt_training.networks.walknet import FRAMES
 from motionrt_training.walk_pool import WalkPool, read_pool
 
-STEPS, KEPT = 450, 60  # frames that are walked, and frames at the end that are kept
+STEPS, KEPT = 900, 60  # frames that are walked, and frames at the end that are kept
 SPEED = 1.2  # m/s
 AHEAD = 1.5  # metres from the walker to its goal
+CANDIDATES = 12
+
+Frames = np.ndarray[tuple[int, ...], np.dtype[np.float32]]
 
 
-def steady_walk(model: NextFrame, history: np.ndarray[tuple[int, int], np.dtype[np.float32]]) -> Motion:
-    """Walk straight along +Z from ``history`` (30, 219); the last frames, feet held."""
-    crowd, made = Crowd(model, history[None]), []
+def steady_walk(model: NextFrame, histories: Frames) -> Motion:
+    """Walk straight along +Z from ``histories`` (B, 30, 219): the end of the walk whose feet slide least, locked."""
+    crowd, made = Crowd(model, histories), []
     for _ in range(STEPS):
-        x, z = crowd.positions[0]
-        made.append(crowd.step(np.array([Goal(0.5 * x, z + AHEAD, 0.0).row()]), SPEED)[0])
-    return lock_feet(to_motion(np.stack(made[-2 * KEPT :])))[-KEPT:]
+        x, z = crowd.positions.T
+        made.append(crowd.step(np.stack([0.5 * x, z + AHEAD, np.zeros_like(x)], axis=1), SPEED))
+    walks = [to_motion(walk[STEPS // 2 :]) for walk in np.stack(made, axis=1)]
+    best = min(walks, key=lambda walk: foot_skate(walk.positions()))
+    return lock_feet(best)[-KEPT:]
 
 
-def straight_start(pool: WalkPool) -> np.ndarray[tuple[int, int], np.dtype[np.float32]]:
-    """A second of a held-out walk at the wanted speed, its last frame at the origin, heading +Z."""
+def straight_starts(pool: WalkPool) -> Frames:
+    """The first second of held-out walks near the wanted speed, each ending at the origin, heading +Z."""
     starts = pool.starts(FRAMES)
     plain = starts[pool.weight[starts] == 1.0]
-    first = plain[np.argmin(np.abs(pool.speed[plain] - SPEED))]
-    return ccf219.encode(stride_of(to_motion(pool.frames[first : first + FRAMES])))
+    near = plain[np.argsort(np.abs(pool.speed[plain] - SPEED), kind="stable")[: 20 * CANDIDATES : 20]]
+    return np.stack([ccf219.encode(stride_of(to_motion(pool.frames[first : first + FRAMES]))) for first in near])
 
 
 def main() -> None:
@@ -55,9 +61,10 @@ def main() -> None:
     parser.add_argument("-o", "--out", type=Path, required=True)
     args = parser.parse_args()
     sessions = Sessions(args.models)
-    walk = steady_walk(WalkModel(sessions), straight_start(read_pool(args.walks)))
+    walk = steady_walk(WalkModel(sessions), straight_starts(read_pool(args.walks)))
+    pack = MotionPack.of([stride_of(walk), solved_standing(PosePrior.open(sessions))])
     with args.out.open("wb") as file:
-        MotionPack.of([stride_of(walk), solved_standing(PosePrior(sessions))]).write(file)
+        pack.write(file)
 
 
 if __name__ == "__main__":

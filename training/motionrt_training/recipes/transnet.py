@@ -1,9 +1,11 @@
 """Train TransNet: fill the gap between seed frames and a target pose, on every recording.
 
-    python -m motionrt_training.recipes.transnet --corpus runs/recordings.npz --out runs/transnet --minutes 60
+    python -m motionrt_training.recipes.transnet --corpus runs/recordings.npz --out runs/transnet --lr 1.2e-4
 
 The gap grows from a few frames to the whole of frames 60..118. Windows in which something happens (a start, a stop, a
 turn, a sit) are drawn more often than others. Some seeds stand still, and some targets are held, as anchor poses are.
+Velocities count little and as squares: whole-hearted, their gradients (30 times those of places) drown all others.
+The learning rate is low (1.2e-4) for the same reason; 3e-4 from the start learns nothing but the first average.
 """
 
 from __future__ import annotations
@@ -13,7 +15,7 @@ import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NamedTuple, cast
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -125,17 +127,12 @@ class TransNetTask:
             parts["speed"] = _mean(_huber(rate - true_rate).mean(2), steps)
             parts["feet"] = _mean(sliding(joints, wanted, rate, true_rate), steps)
             parts["skate"] = _mean(skate(joints), steps)
-            weights = {
-                "skate": s.skate * batch["late"],
-                "feature": 1.0,
-                "place": s.place,
-                "speed": s.speed,
-                "feet": s.feet,
-            }
+            weights = {"feature": 1.0, "place": s.place, "speed": s.speed, "feet": s.feet}
+            weights["skate"] = s.skate * batch["late"]
             return {"loss": sum((weights[k] * v for k, v in parts.items()), torch.zeros(())), **parts}
 
     def validate(self, model: nn.Module) -> dict[str, float]:
-        """Errors on held-out windows with the whole gap hidden, and those of the straight line."""
+        """Errors on held-out windows with the whole gap hidden; the score counts both errors."""
         pick = self.val.starts[:: max(1, len(self.val.starts) // 128)]
         frames = to_body(self.val.at(pick))[0]
         count = len(pick)
@@ -144,8 +141,8 @@ class TransNetTask:
         with torch.no_grad():
             found = model(frames.to(device), hidden.to(device)).cpu()
             wanted = joint_positions(frames, rounds=0)[:, SEED - 1 :]
-            measures = {f"{k}": v for k, v in errors(joint_positions(found, rounds=3)[:, SEED - 1 :], wanted).items()}
-        return {**measures, "score": -measures["joint_cm"] - 10.0 * measures["slide"]}
+            measures = errors(joint_positions(found, rounds=3)[:, SEED - 1 :], wanted)
+        return {**measures, "score": -measures["joint_cm"] - 5.0 * measures["skate"]}
 
     def _examples(self, source: Windows, rng: np.random.Generator, count: int) -> tuple[Tensor, Tensor]:
         frames = mirrored(source.at(source.draw(rng, count)), rng.random(count) < 0.5)
@@ -282,15 +279,12 @@ def skate(joints: Tensor) -> Tensor:
 
 
 def errors(found: Tensor, wanted: Tensor) -> dict[str, float]:
-    """Mean joint error, the same about the pelvis, centimetres, and the speed of low toes, m/s."""
+    """Mean joint error and the same about the pelvis, centimetres; the foot skate, centimetres per frame."""
     local, true_local = found - found[..., :1, :], wanted - wanted[..., :1, :]
-    toes = list(FEET[2:])
-    speed = FPS * _length(found[:, 1:, toes] - found[:, :-1, toes])
-    low = (found[:, :-1, toes, 1] < 0.025).float()
     return {
         "joint_cm": 100.0 * float(_length(found - wanted).mean()),
         "pose_cm": 100.0 * float(_length(local - true_local).mean()),
-        "slide": float((speed * low).sum() / low.sum().clamp(min=1.0)),
+        "skate": float(skate(found).mean()),
     }
 
 
@@ -332,7 +326,7 @@ def train(args: argparse.Namespace) -> dict[str, float]:
     """Train into ``args.out``; returns the last validation."""
     schedule, settings = from_namespace(Schedule, args), from_namespace(TransNetSettings, args)
     task = TransNetTask(load_recordings(args.corpus), settings, schedule.seed)
-    notes = {**dataclasses.asdict(settings), "network": cast("TransNet", task.model).config}
+    notes = {**dataclasses.asdict(settings), "network": task.model.config}
     return Trainer(task, schedule, args.out, notes).run()
 
 
