@@ -219,6 +219,6 @@ def test_a_packed_file_is_read_back(tmp_path: Path) -> None:
 
 def test_every_setting_is_an_option() -> None:
     needed = ["--corpus", "cmu.npz", "--out", "run"]
-    args = parser().parse_args([*needed, *"--threshold none --no-contrastive --minutes 5 --bf16 false".split()])
+    args = parser().parse_args([*needed, *["--threshold", "none", "--no-contrastive", "--minutes", "5", "--bf16", "false"]])
     assert (args.threshold, args.contrastive, args.minutes, args.bf16) == (None, False, 5.0, False)
     assert parser().parse_args(needed).threshold == 0.8

@@ -16,8 +16,8 @@ RADIUS = 0.4  # metres within which a waypoint counts as reached
 class Routes:
     """The waypoints of ``B`` characters, and how far each has come.
 
-    A waypoint is left behind when the character is within ``radius`` of it, or has passed it: it lies behind, within
-    three radii. The last one stays the goal.
+    A waypoint is left behind when the character is within ``radius`` of it; one that was missed is walked back to. The
+    last one stays the goal.
 
     Args:
         waypoints: for each character ``(N, 3)`` x, z, heading.
@@ -29,7 +29,6 @@ class Routes:
         self.waypoints = [np.asarray(rows, dtype=np.float64) for rows in waypoints]
         self.radius = radius
         self.index = [0] * len(waypoints)
-        self._through = [_through(rows) for rows in self.waypoints]
 
     def goals(self, positions: Array) -> npt.NDArray[np.float64]:
         """(B, 3): where each character, now at ``positions`` (B, 2), has to walk to."""
@@ -41,22 +40,10 @@ class Routes:
 
     def _goal(self, character: int, xz: Array) -> npt.NDArray[np.float64]:
         rows = self.waypoints[character]
-        while self.index[character] < len(rows) - 1 and self._behind(character, xz):
+        while self.index[character] < len(rows) - 1 and self._reached(character, xz):
             self.index[character] += 1
         return np.asarray(rows[self.index[character]])
 
-    def _behind(self, character: int, xz: Array) -> bool:
-        number = self.index[character]
-        off = xz - self.waypoints[character][number, :2]
-        distance = np.hypot(*off)
-        return bool(
-            distance < self.radius or (off @ self._through[character][number] > 0 and distance < 3 * self.radius)
-        )
-
-
-def _through(rows: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-    """(N, 2) the way through each waypoint: between the way there and its heading, so that corners are not cut."""
-    out = np.stack([np.sin(rows[:, 2]), np.cos(rows[:, 2])], axis=1)
-    come = np.diff(rows[:, :2], axis=0, prepend=rows[:1, :2] - out[:1])
-    come = come / np.maximum(np.linalg.norm(come, axis=1, keepdims=True), 1e-9)
-    return np.asarray(np.where(np.linalg.norm(come + out, axis=1, keepdims=True) > 1e-3, come + out, come))
+    def _reached(self, character: int, xz: Array) -> bool:
+        off = xz - self.waypoints[character][self.index[character], :2]
+        return bool(np.hypot(*off) < self.radius)
