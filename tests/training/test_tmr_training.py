@@ -219,6 +219,7 @@ def test_a_packed_file_is_read_back(tmp_path: Path) -> None:
 
 def test_every_setting_is_an_option() -> None:
     needed = ["--corpus", "cmu.npz", "--out", "run"]
-    args = parser().parse_args([*needed, *["--threshold", "none", "--no-contrastive", "--minutes", "5", "--bf16", "false"]])
+    options = ["--threshold", "none", "--no-contrastive", "--minutes", "5", "--bf16", "false"]
+    args = parser().parse_args([*needed, *options])
     assert (args.threshold, args.contrastive, args.minutes, args.bf16) == (None, False, 5.0, False)
     assert parser().parse_args(needed).threshold == 0.8
