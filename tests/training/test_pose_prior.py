@@ -19,7 +19,8 @@ from motionrt.models.pose_prior import PosePrior as Prior
 from motionrt.motion import SMPL24, Motion
 from motionrt.motion.rotations import matrix_from_6d
 from motionrt_training.corpora.recordings import Recordings
-from motionrt_training.networks.pose_prior import PosePrior, from_6d, joint_positions, to_6d
+from motionrt_training.networks.kinematics import joint_positions
+from motionrt_training.networks.pose_prior import PosePrior, from_6d, to_6d
 from motionrt_training.recipes import pose_prior as recipe
 from motionrt_training.trainer import Schedule, Trainer
 

@@ -6,6 +6,7 @@ import argparse
 import dataclasses
 import types
 import typing
+from pathlib import Path
 from typing import Any, TypeVar
 
 T = TypeVar("T")
@@ -29,6 +30,16 @@ def add_options(parser: argparse.ArgumentParser, settings: type) -> None:
                 choices=field.metadata.get("choices"),
                 help=help_text,
             )
+
+
+def recipe_parser(description: str, *settings: type) -> argparse.ArgumentParser:
+    """The command line of a recipe: its corpus, the folder of its run, and every field of its settings."""
+    parser = argparse.ArgumentParser(description=description)
+    parser.add_argument("--corpus", type=Path, required=True, help="what was packed for it (.npz)")
+    parser.add_argument("--out", type=Path, required=True, help="folder of the run; the same command goes on")
+    for part in settings:
+        add_options(parser, part)
+    return parser
 
 
 def from_namespace(settings: type[T], values: argparse.Namespace) -> T:

@@ -10,6 +10,7 @@ import torch
 import torch.nn.functional as F
 from torch import Tensor
 
+from motionrt_training.networks.kinematics import nearer_so3
 from motionrt_training.networks.legs import feet
 from motionrt_training.networks.walknet import FRAMES, WalkNet, seen_from, to_body
 from motionrt_training.options import option
@@ -173,8 +174,5 @@ def robust(error: Tensor) -> Tensor:
 
 def orthonormal(frames: Tensor) -> Tensor:
     """(B, T, 219) with rotations brought near to SO(3): one Newton step of the polar decomposition."""
-    m = frames[..., :216].unflatten(-1, (24, 3, 3))
-    gram = sum(m[..., i, :, None] * m[..., i, None, :] for i in range(3))  # M^T M
-    half = 1.5 * torch.eye(3, device=m.device) - 0.5 * cast("Tensor", gram)
-    product = sum(m[..., :, i, None] * half[..., None, i, :] for i in range(3))
-    return torch.cat((cast("Tensor", product).flatten(-3), frames[..., 216:]), dim=-1)
+    matrices = nearer_so3(frames[..., :216].unflatten(-1, (24, 3, 3)))
+    return torch.cat((matrices.flatten(-3), frames[..., 216:]), dim=-1)

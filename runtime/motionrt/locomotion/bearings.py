@@ -48,11 +48,6 @@ def heading_along(path: Path, s: float) -> float:
     return float(np.arctan2(x, z))
 
 
-def wrapped(angle: float) -> float:
-    """The same angle in [-pi, pi)."""
-    return float((angle + np.pi) % (2 * np.pi) - np.pi)
-
-
 def joined(parts: Sequence[Motion]) -> Motion:
     """Motions of one skeleton and frame rate, one behind the other."""
     rotations = np.concatenate([part.rotations for part in parts])

@@ -16,7 +16,6 @@ from motionrt.locomotion.bearings import (
     joined,
     over_feet,
     place_of,
-    wrapped,
 )
 from motionrt.locomotion.goal_frame import Goal, uncanonicalise
 from motionrt.locomotion.journey import Pace, Progress, walk
@@ -27,6 +26,7 @@ from motionrt.locomotion.terrain import Heights, Terrain, raised
 from motionrt.locomotion.transitions import distance, speed_of
 from motionrt.locomotion.walking import FPS, at_30_fps
 from motionrt.motion import Motion
+from motionrt.motion.rotations import wrapped
 
 SEED = 60  # frames that a transition starts from
 STRIDE = 20  # frames of a walk that a transition into a stride ends with

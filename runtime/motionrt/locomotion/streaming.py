@@ -7,7 +7,7 @@ from collections.abc import Generator
 import numpy as np
 import numpy.typing as npt
 
-from motionrt.locomotion.bearings import apart, facing_of, over_feet, place_of, wrapped
+from motionrt.locomotion.bearings import apart, facing_of, over_feet, place_of
 from motionrt.locomotion.character import MOVING, NEAR, SEED, SHARPEST, STRIDE
 from motionrt.locomotion.goal_frame import Goal, uncanonicalise
 from motionrt.locomotion.players import Players
@@ -17,6 +17,7 @@ from motionrt.models.walknet import HISTORY
 from motionrt.motion import Motion
 from motionrt.motion.features import ccf219
 from motionrt.motion.foot_locker import FootLocker
+from motionrt.motion.rotations import wrapped
 
 THERE = 0.3  # metres and radians: somebody who stands this near to a goal stays
 IDLE_S = 2.0  # seconds of standing that are made at once

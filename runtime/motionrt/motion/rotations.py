@@ -185,6 +185,11 @@ def slerp(start: Array, end: Array, weight: npt.ArrayLike) -> Array:
     return normalise(a * start + b * end)
 
 
+def wrapped(angle: npt.ArrayLike) -> Array:
+    """The same angles ``[...]`` in [-pi, pi), radians."""
+    return np.asarray((np.asarray(angle) + np.pi) % (2 * np.pi) - np.pi)
+
+
 def yaw_angle(directions: npt.ArrayLike) -> Array:
     """Heading of directions ``[..., 3]``: the angle in the ground plane from +Z towards +X, radians."""
     d = np.asarray(directions)

@@ -17,7 +17,7 @@ from motionrt.motion import SMPL24, Motion
 from motionrt.motion.features import ccf219
 from motionrt.motion.flat_ground import flat_ground
 from motionrt.motion.foot_lock import lock_feet
-from motionrt.motion.rotations import Array
+from motionrt.motion.rotations import Array, wrapped
 from motionrt.motion.transforms import heading
 from motionrt_training.corpora.bend import bent, smoothed, wave
 from motionrt_training.corpora.recordings import FPS, Recordings
@@ -68,7 +68,7 @@ def moves_on(motion: Motion) -> Array:
     """(F,) bool: over the ground, upright, looking where it goes."""
     velocity = planar_velocity(motion)
     way = np.arctan2(velocity[:, 0], velocity[:, 1])
-    aside = np.abs((way - heading(motion) + np.pi) % (2 * np.pi) - np.pi)
+    aside = np.abs(wrapped(way - heading(motion)))
     positions, height = motion.positions(), motion.root[:, 1]
     trunk = positions[:, SMPL24.index("neck")] - positions[:, 0]
     upright = trunk[:, 1] > UPRIGHT * np.linalg.norm(trunk, axis=1)

@@ -6,6 +6,7 @@ import torch
 from torch import Tensor
 
 from motionrt.motion import SMPL24
+from motionrt_training.networks.kinematics import product
 
 LEGS = tuple(
     tuple(SMPL24.index(f"{side}_{joint}") for joint in ("hip", "knee", "ankle", "foot")) for side in ("left", "right")
@@ -22,7 +23,7 @@ def feet(frames: Tensor) -> Tensor:
         place = x[..., None, 216:] + _rotated(turn, offsets[:, 0])  # hips (B, T, 2, 3)
         points = []
         for joint in range(3):
-            turn = _product(turn, local[..., joint, :, :])
+            turn = product(turn, local[..., joint, :, :])
             place = place + _rotated(turn, offsets[:, joint + 1])
             points.append(place)
         return torch.stack(points[1:], dim=-2)
@@ -30,8 +31,3 @@ def feet(frames: Tensor) -> Tensor:
 
 def _rotated(turn: Tensor, offset: Tensor) -> Tensor:
     return (turn * offset[:, None, :]).sum(-1)
-
-
-def _product(a: Tensor, b: Tensor) -> Tensor:
-    """Products of 3x3 matrices, element by element: far faster on a CPU than a batched matmul."""
-    return sum(a[..., :, i, None] * b[..., None, i, :] for i in range(3))  # type: ignore[return-value]

@@ -75,14 +75,3 @@ def from_6d(sixd: Tensor) -> Tensor:
 def unit(x: Tensor) -> Tensor:
     """Length 1 along the last axis."""
     return x * (x * x).sum(-1, keepdim=True).clamp(min=1e-12).rsqrt()
-
-
-def joint_positions(rotations: Tensor) -> Tensor:
-    """Forward kinematics of smpl24 with the pelvis at the origin: (B, 24, 3, 3) -> (B, 24, 3), metres."""
-    offsets = torch.from_numpy(SMPL24.offsets.copy()).to(rotations)
-    turned, positions = [rotations[:, 0]], [torch.zeros_like(rotations[:, 0, :, 0])]
-    for joint in range(1, JOINTS):
-        parent = SMPL24.parents[joint]
-        positions.append(positions[parent] + turned[parent] @ offsets[joint])
-        turned.append(turned[parent] @ rotations[:, joint])
-    return torch.stack(positions, dim=1)

@@ -12,7 +12,6 @@ import argparse
 import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -22,8 +21,9 @@ from torch import Tensor
 from motionrt.locomotion.posing.yaw import without_yaw
 from motionrt.motion import SMPL24
 from motionrt_training.corpora.recordings import Recordings, load_recordings
-from motionrt_training.networks.pose_prior import PosePrior, joint_positions, to_6d
-from motionrt_training.options import add_options, from_namespace, option
+from motionrt_training.networks.kinematics import joint_positions
+from motionrt_training.networks.pose_prior import PosePrior, to_6d
+from motionrt_training.options import from_namespace, option, recipe_parser
 from motionrt_training.trainer import Losses, Schedule, Trainer
 
 UPRIGHT = 0.2  # least height of the pelvis' up axis; below it a body is upside down or lies on its side
@@ -157,11 +157,7 @@ def train(args: argparse.Namespace) -> dict[str, float]:
 
 def parser() -> argparse.ArgumentParser:
     """Every setting with its default."""
-    result = argparse.ArgumentParser(description="Train the pose prior.")
-    result.add_argument("--corpus", type=Path, required=True, help="packed recordings (.npz)")
-    result.add_argument("--out", type=Path, required=True, help="folder of the run")
-    add_options(result, Schedule)
-    add_options(result, PosePriorSettings)
+    result = recipe_parser("Train the pose prior.", Schedule, PosePriorSettings)
     result.set_defaults(steps=60000, lr=1e-3, validate_every=500, log_every=100)
     return result
 

@@ -15,7 +15,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from motionrt_training.backbones import open_backbone
-from motionrt_training.options import add_options, from_namespace
+from motionrt_training.options import from_namespace, recipe_parser
 from motionrt_training.packed import load_packed
 from motionrt_training.text_cache import cached_features
 from motionrt_training.tmr_task import TmrSettings, TmrTask
@@ -40,14 +40,10 @@ def train(args: argparse.Namespace) -> dict[str, float]:
 
 def parser() -> argparse.ArgumentParser:
     """Every setting with its default."""
-    result = argparse.ArgumentParser(description="Train TMR.")
-    result.add_argument("--corpus", type=Path, required=True, help="packed corpus (.npz)")
-    result.add_argument("--out", type=Path, required=True, help="folder of the run")
+    result = recipe_parser("Train TMR.", Schedule, TmrSettings)
     result.add_argument("--backbone", default="minilm", choices=("onnx", "minilm", "hf"), help="text backbone")
     result.add_argument("--backbone-path", type=Path, help="file (onnx) or folder (hf) of the backbone")
     result.add_argument("--cache", type=Path, help="folder of text features (default: beside the corpus)")
-    add_options(result, Schedule)
-    add_options(result, TmrSettings)
     return result
 
 

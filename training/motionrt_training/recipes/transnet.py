@@ -14,7 +14,6 @@ import argparse
 import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -26,9 +25,11 @@ from motionrt.motion import SMPL24, Motion
 from motionrt.motion.features import ccf219
 from motionrt.motion.features.ccf219 import FPS
 from motionrt_training.corpora.recordings import Recordings, load_recordings
+from motionrt_training.networks import kinematics
+from motionrt_training.networks.kinematics import nearer_so3
 from motionrt_training.networks.transnet import FRAMES, SEED, TransNet, turned_pelvis
 from motionrt_training.networks.walknet import heading_turn, to_body
-from motionrt_training.options import add_options, from_namespace, option
+from motionrt_training.options import from_namespace, option, recipe_parser
 from motionrt_training.trainer import Schedule, Trainer
 
 Ints = npt.NDArray[np.int64]
@@ -252,14 +253,8 @@ def joint_positions(features: Tensor, *, rounds: int = 1) -> Tensor:
         size = rotations.square().sum((-1, -2), keepdim=True)
         rotations = rotations * (3.0 / size.clamp(min=3.0)).sqrt()  # the steps need singular values up to sqrt(3)
     for _ in range(rounds):
-        rotations = 1.5 * rotations - 0.5 * rotations @ (rotations.transpose(-1, -2) @ rotations)
-    turned: list[Tensor] = [rotations[..., 0, :, :]]
-    places = [features[..., 216:]]
-    offsets = torch.from_numpy(SMPL24.offsets.copy()).to(features)
-    for joint, parent in enumerate(SMPL24.parents[1:], start=1):
-        places.append(places[parent] + turned[parent] @ offsets[joint])
-        turned.append(turned[parent] @ rotations[..., joint, :, :])
-    return torch.stack(places, dim=-2)
+        rotations = nearer_so3(rotations)
+    return kinematics.joint_positions(rotations, features[..., 216:])
 
 
 def sliding(joints: Tensor, wanted: Tensor, rate: Tensor, true_rate: Tensor) -> Tensor:
@@ -332,12 +327,7 @@ def train(args: argparse.Namespace) -> dict[str, float]:
 
 def parser() -> argparse.ArgumentParser:
     """Every setting with its default."""
-    result = argparse.ArgumentParser(description="Train TransNet.")
-    result.add_argument("--corpus", type=Path, required=True, help="recordings (.npz)")
-    result.add_argument("--out", type=Path, required=True, help="folder of the run")
-    add_options(result, Schedule)
-    add_options(result, TransNetSettings)
-    return result
+    return recipe_parser("Train TransNet.", Schedule, TransNetSettings)
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

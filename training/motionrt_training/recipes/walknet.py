@@ -15,7 +15,7 @@ from pathlib import Path
 
 from motionrt_training.checkpoint import load_state
 from motionrt_training.corpora.recordings import load_recordings
-from motionrt_training.options import add_options, from_namespace
+from motionrt_training.options import from_namespace, recipe_parser
 from motionrt_training.trainer import Schedule, Trainer
 from motionrt_training.walk_pool import load_or_make
 from motionrt_training.walk_task import WalkSettings, WalkTask
@@ -37,12 +37,8 @@ def train(args: argparse.Namespace) -> dict[str, float]:
 
 def parser() -> argparse.ArgumentParser:
     """Every setting with its default."""
-    result = argparse.ArgumentParser(description="Train WalkNet.")
-    result.add_argument("--corpus", type=Path, required=True, help="packed recordings (.npz)")
-    result.add_argument("--out", type=Path, required=True, help="folder of the run; the same command goes on")
+    result = recipe_parser("Train WalkNet.", Schedule, WalkSettings)
     result.add_argument("--init", type=Path, help="checkpoint whose weights to begin with")
-    add_options(result, Schedule)
-    add_options(result, WalkSettings)
     return result
 
 

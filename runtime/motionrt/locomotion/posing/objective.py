@@ -16,6 +16,7 @@ import numpy.typing as npt
 
 from motionrt.locomotion.posing.targets import Targets
 from motionrt.motion import SMPL24
+from motionrt.motion.rotations import wrapped
 
 Rows = npt.NDArray[np.float64]
 
@@ -143,8 +144,3 @@ def _standing_joints(targets: Targets) -> list[tuple[int, float]]:
             continue
         joints += [(SMPL24.index(name), height) for name, height in names.items() if name not in targets.names]
     return joints
-
-
-def wrapped(angle: Rows) -> Rows:
-    """The same angle in [-pi, pi)."""
-    return np.asarray((angle + np.pi) % (2 * np.pi) - np.pi)

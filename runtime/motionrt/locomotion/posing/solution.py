@@ -11,7 +11,7 @@ from motionrt.locomotion.posing.body import Prior
 from motionrt.locomotion.posing.search import Found
 from motionrt.locomotion.posing.targets import Targets
 from motionrt.motion import SMPL24, Motion
-from motionrt.motion.rotations import axis_rotation
+from motionrt.motion.rotations import axis_rotation, wrapped
 from motionrt.motion.skeleton import FloatArray
 
 FPS = 30.0
@@ -52,7 +52,7 @@ def solution_of(prior: Prior, found: Found, targets: Targets, iterations: int) -
     rotations = prior.decode(found.latent[None]).copy()
     rotations[:, 0] = axis_rotation("Y", np.float32(found.yaw)).astype(np.float32) @ rotations[:, 0]
     motion = Motion(rotations, found.root[None].astype(np.float32), FPS)
-    heading = float((found.yaw + np.pi) % (2 * np.pi) - np.pi)
+    heading = float(wrapped(found.yaw))
     return PoseSolution(motion, errors_cm(motion, targets), heading, found.latent.astype(np.float32), iterations)
 
 

@@ -22,7 +22,7 @@ import numpy.typing as npt
 from motionrt.motion.features.checks import checked_features
 from motionrt.motion.kinematics import global_to_local
 from motionrt.motion.motion import Motion
-from motionrt.motion.rotations import Array, axis_rotation, matrix_from_6d, matrix_to_6d, project_to_so3
+from motionrt.motion.rotations import Array, axis_rotation, matrix_from_6d, matrix_to_6d, project_to_so3, wrapped
 from motionrt.motion.skeleton import SMPL22_JOINTS, SMPL24, FloatArray
 from motionrt.motion.transforms import heading
 
@@ -47,7 +47,7 @@ def encode(motion: Motion) -> FloatArray:
     root_step = _turn(to_heading, steps[:, :1])[:, 0]
     contacts = np.linalg.norm(steps[:, CONTACT_JOINTS], axis=-1) < CONTACT_SPEED
     parts = [
-        (_wrapped(_forward_difference(yaw)) / 2)[:, None],
+        (wrapped(_forward_difference(yaw)) / 2)[:, None],
         root_step[:, [0, 2]],
         positions[:, 0, 1:2],
         _turn(to_heading, local[:, 1:]).reshape(motion.frames, -1),
@@ -147,8 +147,3 @@ def _forward_difference(values: Array) -> Array:
         return np.zeros_like(values)
     steps = np.diff(values, axis=0)
     return np.concatenate([steps, steps[-1:]])
-
-
-def _wrapped(angle: Array) -> Array:
-    """Angles brought into (-pi, pi]."""
-    return np.asarray((angle + np.pi) % (2 * np.pi) - np.pi)
