@@ -1,5 +1,6 @@
-"""The papers' measures, NumPy only: retrieval ranks and recall, protocols, temporal overlap, locomotion."""
+"""The papers' measures, NumPy only: retrieval ranks and recall, protocols, temporal overlap, locomotion, generation."""
 
+from motionrt.metrics.generation import Body, PositionErrors, ape, ave, temos_scores
 from motionrt.metrics.locomotion import (
     EndError,
     PathDeviation,
@@ -13,6 +14,8 @@ from motionrt.metrics.locomotion import (
     waypoint_distances,
     waypoints_reached,
 )
+from motionrt.metrics.matching import chance, matching, matching_ranks
+from motionrt.metrics.part_labels import PartAccuracy, part_accuracy
 from motionrt.metrics.protocols import (
     all_pairs,
     all_with_threshold,
@@ -22,31 +25,44 @@ from motionrt.metrics.protocols import (
 )
 from motionrt.metrics.ranking import RECALL_AT, Retrieval, Scores, ranks, retrieval, scores, text_scores
 from motionrt.metrics.temporal import localisation_accuracy, temporal_iou
+from motionrt.metrics.variety import diversity, multimodality
 from motionrt.metrics.walk_report import LocomotionMeasures
 
 __all__ = [
     "RECALL_AT",
+    "Body",
     "EndError",
     "LocomotionMeasures",
+    "PartAccuracy",
     "PathDeviation",
+    "PositionErrors",
     "Retrieval",
     "Scores",
     "all_pairs",
     "all_with_threshold",
+    "ape",
+    "ave",
+    "chance",
     "dissimilar_subset",
+    "diversity",
     "drift",
     "end_error",
     "foot_skate",
     "jerk",
     "keypoint_error",
     "localisation_accuracy",
+    "matching",
+    "matching_ranks",
     "most_dissimilar",
+    "multimodality",
+    "part_accuracy",
     "path_deviation",
     "ranks",
     "retrieval",
     "scores",
     "small_batches",
     "standing_height",
+    "temos_scores",
     "temporal_iou",
     "text_scores",
     "waypoint_distances",
