@@ -10,6 +10,7 @@ from typing import Any
 import yaml
 
 TINY = Path(__file__).parents[1] / "fixtures" / "models"
+TINY_GENERATORS = TINY.parent / "generators"  # those that make motion of text
 
 
 def copy_tiny(folder: Path) -> Path:

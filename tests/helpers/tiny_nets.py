@@ -11,8 +11,11 @@ import torch
 from motionrt_export.sources import Sources
 from motionrt_export.walks import Walks
 from motionrt_training.checkpoint import Network, network_name
+from motionrt_training.networks.egocentric import to_egocentric
+from motionrt_training.networks.latent_denoiser import LatentDenoiser
 from motionrt_training.networks.minilm import MiniLM
 from motionrt_training.networks.pose_prior import PosePrior, to_6d
+from motionrt_training.networks.temos import Temos
 from motionrt_training.networks.tmr import TMR
 from motionrt_training.networks.transnet import TransNet
 from motionrt_training.networks.walknet import WalkNet
@@ -69,19 +72,53 @@ def tiny_pose_prior() -> PosePrior:
     return model.eval().requires_grad_(False)
 
 
+def tiny_temos(patch: int = 8) -> Temos:
+    """A TEMOS of two thin layers whose people stand about a T-pose and stroll."""
+    torch.manual_seed(8)
+    model = Temos(layers=2, ff=64, patch=patch, dropout=0.0)
+    for name, value in model.named_parameters():
+        if not value.any() and "norm" not in name:  # branches that begin at zero
+            value.data.normal_(0.0, 0.05)
+    model.motion_decoder.project.weight.data.normal_(0.0, 0.05)
+    standing = torch.cat((torch.tensor([1.0, 0.0, 0.0, 0.0, 1.0, 0.0]).repeat(22), torch.tensor([0.0, 0.0, 0.9])))
+    model.frame_mean.copy_(to_egocentric(standing[None, None])[0, 0])
+    model.frame_mean[2] = 0.03
+    model.frame_std.uniform_(0.1, 0.3)
+    model.frame_std[:3] = 0.01
+    return model.eval().requires_grad_(False)
+
+
+def tiny_latent_denoiser(layers: int = 3) -> LatentDenoiser:
+    """A denoiser of thin layers that adds something to its first guess, with statistics of latents."""
+    torch.manual_seed(9)
+    model = LatentDenoiser(layers=layers, ff=64, dropout=0.0)
+    model.out.weight.data.normal_(0.0, 0.05)
+    model.out.bias.data.normal_(0.0, 0.1)
+    model.latent_mean.normal_(0.0, 0.5)
+    model.latent_std.uniform_(0.5, 1.5)
+    return model.eval().requires_grad_(False)
+
+
 def _standing(mean: torch.Tensor) -> None:
     mean[:216] = torch.eye(3).flatten().repeat(24)
     mean[217] = 0.9
 
 
 NOTES = {"seed": "3", "steps": "10", "minutes": "0.123", "measures": '{"test_R1": 12.345, "val_R1": 1}'}
-MAKERS = {TMR: tiny_tmr, WalkNet: tiny_walknet, TransNet: tiny_transnet, PosePrior: tiny_pose_prior}
+MAKERS = {
+    TMR: tiny_tmr,
+    WalkNet: tiny_walknet,
+    TransNet: tiny_transnet,
+    PosePrior: tiny_pose_prior,
+    Temos: tiny_temos,
+    LatentDenoiser: tiny_latent_denoiser,
+}
 
 
 class TinySources(Sources):
     """The tiny networks in place of the released ones."""
 
-    steps, characters = 40, 2
+    steps, characters, generations = 40, 2, 4
 
     @cached_property
     def backbone(self) -> MiniLM:

@@ -18,6 +18,8 @@ TINY = {
     "walknet": {"d": 32, "layers": 1, "heads": 2, "ff": 32},
     "transnet": {"d": 32, "layers": 1, "heads": 2, "ff": 32},
     "pose_prior": {"latent": 4, "width": 16},
+    "temos": {"d": 32, "layers": 1, "heads": 2, "ff": 32},
+    "latent_denoiser": {"latent": 8, "d": 32, "layers": 3, "heads": 2, "ff": 32},
 }
 
 

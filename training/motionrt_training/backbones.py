@@ -62,7 +62,9 @@ class OnnxBackbone:
             raise FileNotFoundError(f"no sentence encoder at {path}; export it first")
         beside = path.parent / "tokenizer.json"
         self.tokenizer = _tokenizer(beside if beside.is_file() else package_folder() / "tokenizer.json")
-        self.session = onnxruntime.InferenceSession(path, providers=["CPUExecutionProvider"])
+        options = onnxruntime.SessionOptions()
+        options.intra_op_num_threads = 1  # texts are short, and training wants the cores
+        self.session = onnxruntime.InferenceSession(path, options, providers=["CPUExecutionProvider"])
         self.fingerprint = f"onnx-{hashlib.sha256(path.read_bytes()).hexdigest()}"
 
     def encode(self, text: str) -> Encoded:

@@ -17,7 +17,9 @@ from typing import Any, TypeVar
 import torch
 from torch import Tensor, nn
 
+from motionrt_training.networks.latent_denoiser import LatentDenoiser
 from motionrt_training.networks.pose_prior import PosePrior
+from motionrt_training.networks.temos import Temos
 from motionrt_training.networks.tmr import TMR
 from motionrt_training.networks.transnet import TransNet
 from motionrt_training.networks.walknet import WalkNet
@@ -27,6 +29,8 @@ NETWORKS: Mapping[str, type[nn.Module]] = {
     "walknet": WalkNet,
     "transnet": TransNet,
     "pose_prior": PosePrior,
+    "temos": Temos,
+    "latent_denoiser": LatentDenoiser,
 }
 """Every network that is released; ``config`` of each holds the arguments of its constructor."""
 

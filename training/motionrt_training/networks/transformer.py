@@ -20,6 +20,14 @@ def sinusoidal_positions(length: int, d: int, like: Tensor) -> Tensor:
     return torch.stack((angle.sin(), angle.cos()), dim=-1).flatten(1).to(like.dtype)
 
 
+def fourier_positions(length: int, d: int, like: Tensor) -> Tensor:
+    """Positions with all frequencies up to half a cycle per token, evenly spaced: (length, d), sines and cosines."""
+    step = torch.arange(length, device=like.device, dtype=torch.float32)[:, None]
+    rate = torch.arange(d // 2, device=like.device, dtype=torch.float32) * (2.0 * math.pi / d)
+    angle = step * rate
+    return torch.stack((angle.sin(), angle.cos()), dim=-1).flatten(1).to(like.dtype)
+
+
 def key_bias(mask: Tensor, dtype: torch.dtype = torch.float32) -> Tensor:
     """(B, T) bool, True where valid -> (B, 1, 1, T) to be added to attention scores."""
     return ((~mask).to(dtype) * MASKED)[:, None, None, :]
@@ -134,6 +142,28 @@ class DecoderLayer(nn.Module):
         x = self.norm1(x + self.drop(self.attention(x, bias)))
         x = self.norm2(x + self.drop(self.cross(latent)))
         return self.norm3(x + self.drop(self.feed(x)))
+
+
+class ResidualLayer(nn.Module):
+    """Pre-norm layer whose branches begin at zero: a stack of them begins as the identity and learns from there."""
+
+    def __init__(self, d: int, heads: int, ff: int, dropout: float = 0.0, *, latent: bool = False) -> None:
+        super().__init__()
+        self.attention = MultiHeadSelfAttention(d, heads)
+        self.cross = LatentAttention(d) if latent else None
+        self.feed = FeedForward(d, ff, dropout)
+        self.norm1, self.norm2 = nn.LayerNorm(d), nn.LayerNorm(d)
+        self.drop = Dropout(dropout)
+        for last in (self.attention.out, self.feed.down, *([self.cross.out] if self.cross else [])):
+            nn.init.zeros_(last.weight)
+            nn.init.zeros_(last.bias)
+
+    def forward(self, x: Tensor, bias: Tensor, latent: Tensor | None = None) -> Tensor:
+        """Tokens (B, T, d), bias from `key_bias`, latent (B, d) for a layer that attends to one -> (B, T, d)."""
+        x = x + self.drop(self.attention(self.norm1(x), bias))
+        if self.cross is not None and latent is not None:
+            x = x + self.drop(self.cross(latent))
+        return x + self.drop(self.feed(self.norm2(x)))
 
 
 def set_fused_attention(module: nn.Module, fused: bool) -> None:
