@@ -1,4 +1,4 @@
-"""motionrt: search 3D human motion by text, walk and act in scenes, on two CPU cores, offline and without torch.
+"""motionrt: search 3D human motion by text, make it, walk and act in scenes, on two CPU cores, offline, no torch.
 
 The names below are loaded when they are first used, so that ``import motionrt`` costs nothing.
 """
@@ -26,12 +26,15 @@ if TYPE_CHECKING:
         WalkTo,
     )
     from motionrt.motion import SMPL24, Motion, Skeleton
+    from motionrt.motion.body_parts import PARTS
     from motionrt.retrieval import Gallery, Hit
     from motionrt.runtime import Runtime
+    from motionrt.synthesis.composing import Layer
 
     __version__: str
 
 __all__ = [
+    "PARTS",
     "SMPL24",
     "Act",
     "Do",
@@ -39,6 +42,7 @@ __all__ = [
     "Gallery",
     "Goal",
     "Hit",
+    "Layer",
     "Motion",
     "MotionRTError",
     "Path",
@@ -59,6 +63,7 @@ __all__ = [
 ]
 
 _HOMES = {
+    "PARTS": "motion.body_parts",
     "SMPL24": "motion",
     "Act": "locomotion",
     "Do": "locomotion",
@@ -66,6 +71,7 @@ _HOMES = {
     "Gallery": "retrieval",
     "Goal": "locomotion",
     "Hit": "retrieval",
+    "Layer": "synthesis.composing",
     "Motion": "motion",
     "MotionRTError": "errors",
     "Path": "locomotion",

@@ -11,6 +11,7 @@ import numpy as np
 
 from motionrt.errors import GalleryNotFoundError, InvalidInputError
 from motionrt.formats import load_motion
+from motionrt.making import Making
 from motionrt.models import TextMotionModel
 from motionrt.motion import Motion
 from motionrt.motion.skeleton import FloatArray
@@ -47,8 +48,8 @@ DEFAULT_CAPTIONS = _ASSETS / "captions.txt"
 EMBEDDED_CAPTIONS = _ASSETS / "captions.npz"  # the same, embedded by the shipped models
 
 
-class Runtime(Moving):
-    """Search, describe and embed motion, walk and act; every model opens when it is first needed.
+class Runtime(Moving, Making):
+    """Search, describe and embed motion, make it of words, walk and act; every model opens when it is first needed.
 
     Args:
         models: the manifest or the folder of the models, by default those that came with motionrt.

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import cycle
 
+from motionrt.bench.makes import BODY_PARTS, COMPOSE, compose_call, generate_calls, parts_call
 from motionrt.bench.moves import CROWDS, PERFORM, POSE, TRANSITION, pose_call, transition_call, walk_call, walk_case
 from motionrt.bench.timing import Case
 from motionrt.bench.workload import ANSWER, MOTION, SEARCH_SIZES, TEXT, TOP, Workload, search_call, search_case
@@ -17,7 +18,10 @@ from motionrt.locomotion.performing import Performer
 from motionrt.locomotion.players import ModelPlayers
 from motionrt.locomotion.spreading import Spread
 from motionrt.models import Sessions
+from motionrt.models.latent_denoiser import DENOISER
 from motionrt.models.pose_prior import MODEL as POSE_PRIOR
+from motionrt.models.temos import DECODER
+from motionrt.models.temos import TEXT as TEMOS_TEXT
 from motionrt.models.text import MODEL as SENTENCES
 from motionrt.models.tmr import MOTION as TMR_MOTION
 from motionrt.models.tmr import TEXT as TMR_TEXT
@@ -106,6 +110,18 @@ def _perform(setting: Setting) -> Mapping[str, Case]:
     return {PERFORM: Case(perform, perform(), slow=True)}
 
 
+def _generate(setting: Setting) -> Mapping[str, Case]:
+    return {name: Case(call) for name, call in generate_calls(setting.runtime.generator).items()}
+
+
+def _compose(setting: Setting) -> Mapping[str, Case]:
+    return {COMPOSE: Case(compose_call(setting.runtime))}
+
+
+def _parts(setting: Setting) -> Mapping[str, Case]:
+    return {BODY_PARTS: Case(parts_call(setting.runtime))}
+
+
 ROADS: Mapping[str, Road] = {
     "text": Road((SENTENCES, TMR_TEXT), _text),
     "motion": Road((TMR_MOTION,), _motion),
@@ -115,6 +131,9 @@ ROADS: Mapping[str, Road] = {
     "transition": Road((TRANSNET,), _transition),
     "pose": Road((POSE_PRIOR,), _pose),
     "perform": Road((WALKNET, TRANSNET, POSE_PRIOR), _perform),
+    "generate": Road((SENTENCES, TEMOS_TEXT, DECODER, DENOISER), _generate),
+    "compose": Road((), _compose),
+    "parts": Road((), _parts),
     COLD: Road((SENTENCES, TMR_TEXT, TMR_MOTION), lambda _: {}),
 }
 """All roads, in the order in which they are measured and shown."""

@@ -11,12 +11,38 @@ import argparse
 import sys
 from collections.abc import Sequence
 
-from motionrt.cli import bench, convert, describe, galleries, models, moments, perform, retrieve, walk
+from motionrt.cli import (
+    bench,
+    compose,
+    convert,
+    describe,
+    galleries,
+    generate,
+    models,
+    moments,
+    parts,
+    perform,
+    retrieve,
+    walk,
+)
 from motionrt.cli.console import close_quietly, prepare_streams, say
 from motionrt.errors import MotionRTError
 
 ERROR, INTERRUPTED, BROKEN_PIPE = 1, 130, 141
-_COMMANDS = (retrieve, galleries, describe, moments, walk, perform, convert, models, bench)
+_COMMANDS = (
+    retrieve,
+    galleries,
+    describe,
+    moments,
+    generate,
+    compose,
+    parts,
+    walk,
+    perform,
+    convert,
+    models,
+    bench,
+)
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -42,7 +68,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="motionrt",
-        description="Search 3D human motion by text, walk and act in scenes, offline, on a few CPU cores.",
+        description="Search 3D human motion by text, make it, walk and act in scenes, offline, on a few CPU cores.",
         epilog="'motionrt COMMAND --help' explains a command.",
     )
     parser.add_argument("--version", action=_Version, nargs=0, help="print the version and exit")

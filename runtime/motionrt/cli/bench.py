@@ -9,7 +9,7 @@ from typing import Any
 from motionrt.cli.console import print_json, print_table, say
 from motionrt.cli.options import add_json, command
 
-HELP = """measure encoding, search, walking, posing, cold start and memory on this machine
+HELP = """measure encoding, search, walking, posing, making motion, cold start and memory on this machine
 Every figure is for one call, those of walks for one character and frame; --against takes turns in the same process at
 the same thread count."""
 

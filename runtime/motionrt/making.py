@@ -1,0 +1,269 @@
+"""The verbs of ``Runtime`` that make motion: generate, compose, layers, body_parts."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property, partial
+from typing import TYPE_CHECKING, overload
+
+from motionrt.synthesis.sampling import DEFAULT_SAMPLER, GUIDANCE, SECONDS, STEPS
+
+if TYPE_CHECKING:
+    from motionrt.models import TextMotionModel
+    from motionrt.motion import Motion
+    from motionrt.synthesis.composing.alignment import Align
+    from motionrt.synthesis.composing.composition import Keep
+    from motionrt.synthesis.composing.layers import Layer
+    from motionrt.synthesis.generating import Generator
+    from motionrt.synthesis.layering import LayerLike, Names
+    from motionrt.synthesis.parts import Complete, Endpoint, Labeller
+
+
+class Making:
+    """Say it, and combine it; see :class:`motionrt.runtime.Runtime`."""
+
+    _variant: str | None
+
+    if TYPE_CHECKING:
+
+        @cached_property
+        def model(self) -> TextMotionModel: ...
+
+    @cached_property
+    def generator(self) -> Generator:
+        """Text to motion; its models open when they are first needed, and share the sentence encoder of retrieval."""
+        from motionrt.synthesis.generating import Generator
+
+        return Generator(self.model.sessions, self._variant, sentences=self.model.sentences)
+
+    @overload  # a str is a sequence of str, too, so the first two overlap the others
+    def generate(  # type: ignore[overload-overlap]
+        self,
+        text: str,
+        seconds: float = ...,
+        *,
+        n: None = ...,
+        seed: int | None = ...,
+        temperature: float = ...,
+        sampler: str = ...,
+        guidance: float = ...,
+        steps: int = ...,
+        foot_lock: bool = ...,
+    ) -> Motion: ...
+
+    @overload
+    def generate(  # type: ignore[overload-overlap]
+        self,
+        text: str,
+        seconds: float = ...,
+        *,
+        n: int,
+        seed: int | None = ...,
+        temperature: float = ...,
+        sampler: str = ...,
+        guidance: float = ...,
+        steps: int = ...,
+        foot_lock: bool = ...,
+    ) -> list[Motion]: ...
+
+    @overload
+    def generate(
+        self,
+        text: Sequence[str],
+        seconds: float = ...,
+        *,
+        n: None = ...,
+        seed: int | None = ...,
+        temperature: float = ...,
+        sampler: str = ...,
+        guidance: float = ...,
+        steps: int = ...,
+        foot_lock: bool = ...,
+    ) -> list[Motion]: ...
+
+    @overload
+    def generate(
+        self,
+        text: Sequence[str],
+        seconds: float = ...,
+        *,
+        n: int,
+        seed: int | None = ...,
+        temperature: float = ...,
+        sampler: str = ...,
+        guidance: float = ...,
+        steps: int = ...,
+        foot_lock: bool = ...,
+    ) -> list[list[Motion]]: ...
+
+    def generate(
+        self,
+        text: str | Sequence[str],
+        seconds: float = SECONDS,
+        *,
+        n: int | None = None,
+        seed: int | None = None,
+        temperature: float = 1.0,
+        sampler: str = DEFAULT_SAMPLER,
+        guidance: float = GUIDANCE,
+        steps: int = STEPS,
+        foot_lock: bool = True,
+    ) -> Motion | list[Motion] | list[list[Motion]]:
+        """A motion that a text describes; or several, or those of several texts.
+
+        Motions have 30 fps and begin above the origin, facing +Z, with the floor at y = 0. Sample ``i`` of a text and a
+        seed is the same, bit for bit, whatever else is asked for with it.
+
+        Args:
+            text: what somebody does, as in "wave the right hand"; a list of texts gives a list of answers.
+            seconds: 0.5 to 10.
+            n: how many motions of each text, as a list; None is one, not in a list.
+            seed: of the chance in it, from 0; None is another one every time.
+            temperature: how far samples stray from what is most likely: 1 as trained, 0 not at all, so that all are
+                the same.
+            sampler: ``"diffusion"``, or ``"vae"``, which draws straight from the text encoder's distribution.
+            guidance: how much more the text counts than in training, for diffusion.
+            steps: calls of the denoiser, for diffusion: fewer are faster.
+            foot_lock: let standing feet stand still.
+
+        Raises:
+            InvalidInputError: an empty text, or a number out of range; the message says what is possible.
+            ModelNotFoundError, ModelFileError: the models are not there.
+        """
+        from motionrt.errors import InvalidInputError
+        from motionrt.synthesis.sampling import Sampling
+
+        how = Sampling(seconds, seed, 1 if n is None else n, temperature, sampler, guidance, steps, foot_lock)
+        if isinstance(text, str):
+            found = self.generator.generate(text, how)
+            return found[0] if n is None else found
+        if not text:
+            raise InvalidInputError("give at least one text")
+        many = [self.generator.generate(one, how) for one in text]
+        return [motions[0] for motions in many] if n is None else many
+
+    def layers(
+        self,
+        given: Sequence[LayerLike],
+        parts: Sequence[Names] | None = None,
+        *,
+        masks: Sequence[Names] | None = None,
+        seconds: float | None = None,
+        seed: int | None = None,
+        labeller: str | Labeller = "rules",
+        sampler: str = DEFAULT_SAMPLER,
+        temperature: float = 1.0,
+    ) -> list[Layer]:
+        """What :meth:`compose` lays over each other, with motions generated and parts found; arguments as there."""
+        from motionrt.synthesis.layering import Makers, layers_of
+        from motionrt.synthesis.sampling import Sampling
+
+        how = Sampling(seed=seed, sampler=sampler, temperature=temperature)
+        makers = Makers(
+            make=lambda text, length: self.generator.generate(text, how.with_seconds(length))[0],
+            label=partial(self.body_parts, labeller=labeller),
+            derive=_fast_parts,
+        )
+        return layers_of(given, makers, parts=parts, masks=masks, seconds=seconds)
+
+    def compose(
+        self,
+        given: Sequence[LayerLike],
+        parts: Sequence[Names] | None = None,
+        *,
+        masks: Sequence[Names] | None = None,
+        seconds: float | None = None,
+        seed: int | None = None,
+        joint: bool = False,
+        align: Align = "start",
+        seam: int = 1,
+        keep: Keep = "local",
+        foot_lock: bool = False,
+        override: bool = True,
+        labeller: str | Labeller = "rules",
+        sampler: str = DEFAULT_SAMPLER,
+        temperature: float = 1.0,
+    ) -> Motion:
+        """One motion out of several: each moves some parts of the body (SINC 3.2).
+
+        Whoever needs fewer parts lies on top; a leg or "global" takes both legs, the global orientation and the
+        translation along; see :func:`motionrt.synthesis.composing.compose`.
+
+        Args:
+            given: two or more motions, motion files, texts, or :class:`~motionrt.synthesis.composing.Layer` s. A
+                ``str`` is a file if there is one, or if it is named like one (``wave.bvh``); otherwise a text.
+            parts: for each the body parts that its action needs, as in ``[None, "right arm"]``. Those left open are
+                found: of texts by the labeller, of motions by how fast they move; a first motion that alone is left
+                open moves all that the others leave.
+            masks: for each exactly the joints that it moves, names of parts or joints, instead of ``parts``.
+            seconds: length; None is that of the shortest motion, or 4 s where all are texts. Longer ones are cut,
+                shorter ones looped.
+            seed: for texts: as in :meth:`generate`, every text with this seed.
+            joint: all are texts, and the model gets them in one sentence, as SINC is trained; nothing is composed
+                afterwards. Otherwise every text is generated by itself.
+            align: ``"start"``, ``"stretch"`` (everyone's end at the same time) or ``"phase"`` (in step).
+            seam: over how many joints one layer passes into another, 0 to 3; 0 is the paper's hard cut.
+            keep: ``"world"`` keeps the lean of what is moved to another body, ``"local"`` its joints' rotations.
+            foot_lock: let standing feet of the result stand still; those of generated texts do already.
+            override: where two need the same part, the one on top gets it; otherwise this is an error.
+            labeller: finds the parts of texts: ``"rules"``, or any function of a text, such as a
+                :class:`~motionrt.synthesis.parts.PromptLabeller`.
+            sampler: as in :meth:`generate`.
+            temperature: as in :meth:`generate`.
+
+        Raises:
+            InvalidInputError: anything of the wrong kind or out of range; the message says which and what is possible.
+            MotionFileNotFoundError, FormatError, RigError: a file that cannot be read.
+        """
+        from motionrt.synthesis.composing import compose
+        from motionrt.synthesis.layering import joined
+
+        if joint:
+            text = joined(given, parts, masks)
+            length = SECONDS if seconds is None else seconds
+            return self.generate(text, length, seed=seed, sampler=sampler, temperature=temperature)
+        layers = self.layers(
+            given,
+            parts,
+            masks=masks,
+            seconds=seconds,
+            seed=seed,
+            labeller=labeller,
+            sampler=sampler,
+            temperature=temperature,
+        )
+        return compose(
+            layers, seconds=seconds, align=align, seam=seam, keep=keep, foot_lock=foot_lock, override=override
+        )
+
+    def body_parts(
+        self,
+        text: str,
+        *,
+        labeller: str | Labeller = "rules",
+        complete: Complete | None = None,
+        endpoint: Endpoint | None = None,
+    ) -> frozenset[str]:
+        """The body parts that an action needs, out of the six of :data:`motionrt.PARTS`.
+
+        Args:
+            text: what somebody does, as in "kick with the right leg".
+            labeller: ``"rules"``, offline; ``"llm"``, a language model of yours; or any function of a text that gives
+                names of parts.
+            complete: for ``"llm"``: any function that answers a prompt.
+            endpoint: for ``"llm"``, instead: where an OpenAI-compatible server answers it.
+
+        Raises:
+            InvalidInputError: an empty text, an unknown labeller, or ``"llm"`` without a model.
+            LabellingError: the language model gives no answer, or names no part.
+        """
+        from motionrt.synthesis.parts import body_parts
+
+        return body_parts(text, labeller=labeller, complete=complete, endpoint=endpoint)
+
+
+def _fast_parts(motion: Motion) -> frozenset[str]:
+    """The parts that a motion moves, by their speed."""
+    from motionrt.synthesis.parts import velocity_parts
+
+    return velocity_parts(motion)

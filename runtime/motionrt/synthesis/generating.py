@@ -1,0 +1,88 @@
+"""Text to motion: a text's tokens, a latent drawn for them, and the motion that the decoder makes of it."""
+
+from __future__ import annotations
+
+from functools import partial
+
+import numpy as np
+import numpy.typing as npt
+
+from motionrt.models import latent_denoiser, temos
+from motionrt.models.latent_denoiser import LatentDenoiser
+from motionrt.models.sessions import Sessions
+from motionrt.models.temos import LATENT, TemosModel
+from motionrt.models.text import MODEL as SENTENCES
+from motionrt.models.text import FloatArray, SentenceEncoder, SentenceFeatures, checked_text
+from motionrt.motion import Motion
+from motionrt.motion.features import sinc135
+from motionrt.motion.foot_lock import lock_feet
+from motionrt.synthesis.diffusion import ddim
+from motionrt.synthesis.sampling import Sampling
+
+PADDING = 20  # frames: the decoder sees multiples of them only, so that 15 lengths are all it ever has memory for
+
+
+class Generator:
+    """Makes motions of texts; every model opens when it is first needed.
+
+    Samples go through the models one by one: they come out the same, bit for bit, alone and among others.
+
+    Args:
+        sessions: open models.
+        variant: which files, as in ``fp32``; by default those that the manifest prefers.
+        sentences: the sentence encoder, where there is one already.
+    """
+
+    def __init__(
+        self, sessions: Sessions, variant: str | None = None, *, sentences: SentenceEncoder | None = None
+    ) -> None:
+        self.temos = TemosModel(sessions, variant)
+        self.denoiser = LatentDenoiser(sessions, variant)
+        self.sentences = sentences or SentenceEncoder(sessions, variant)
+        self._prepared = False
+
+    def generate(self, text: str, sampling: Sampling | None = None) -> list[Motion]:
+        """``sampling.n`` motions of a text: 30 fps, from above the origin, facing +Z, feet on the floor.
+
+        Raises:
+            InvalidInputError: an empty text.
+            ModelNotFoundError, ModelFileError: the models are not there.
+        """
+        how = sampling or Sampling()
+        checked_text(text)  # before a model is opened for it
+        self._prepare(how.sampler)
+        return [finished(motion, how.foot_lock) for motion in self.decode(self.latents(text, how), how.frames)]
+
+    def latents(self, text: str, sampling: Sampling) -> FloatArray:
+        """``(n, 256)`` float32 latents of TEMOS drawn for a text; sample ``i`` is the same for every ``n``."""
+        features = self.sentences.encode(text)
+        noise = np.stack([sampling.noise(sample, LATENT) for sample in range(sampling.n)])
+        if sampling.sampler == "vae":
+            return self.temos.encode_text(features).at(noise)
+        denoise = partial(self._denoise, features, sampling.guidance)
+        return np.concatenate([ddim(denoise, row[None], sampling.steps) for row in noise])
+
+    def decode(self, latents: FloatArray, frames: int) -> list[Motion]:
+        """The motions of latents ``(n, 256)`` as the decoder gives them; rotations are made proper ones."""
+        mask = np.zeros((1, -(-frames // PADDING) * PADDING), bool)
+        mask[:, :frames] = True
+        return [sinc135.decode(self.temos.decode(row[None], mask)[0, :frames]) for row in latents]
+
+    def _denoise(
+        self, text: SentenceFeatures, guidance: float, latent: FloatArray, timestep: npt.NDArray[np.int64]
+    ) -> tuple[FloatArray, FloatArray]:
+        weights = np.full(len(latent), guidance, np.float32)
+        return self.denoiser(latent, timestep, text.token_features, text.attention_mask, weights)
+
+    def _prepare(self, sampler: str) -> None:
+        """Let the models open side by side, the first time."""
+        if not self._prepared:
+            self._prepared = True
+            drawing = temos.TEXT if sampler == "vae" else latent_denoiser.DENOISER
+            self.temos.sessions.prepare(SENTENCES, drawing, temos.DECODER, variant=self.temos.variant)
+
+
+def finished(motion: Motion, foot_lock: bool = True) -> Motion:
+    """Starting above the origin, facing +Z, on the floor; and standing feet stand still."""
+    placed = motion.canonical().grounded()
+    return lock_feet(placed) if foot_lock else placed

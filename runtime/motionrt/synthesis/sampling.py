@@ -1,0 +1,101 @@
+"""How to generate: length, chance and sampler, checked once."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+
+from motionrt.errors import InvalidInputError
+from motionrt.models.text import FloatArray
+from motionrt.motion.features import sinc135
+
+SAMPLERS = ("diffusion", "vae")
+DEFAULT_SAMPLER = "diffusion"
+SECONDS = 4.0
+SHORTEST_S, LONGEST_S = 0.5, 10.0  # what the models were trained on
+GUIDANCE = 2.5  # weight of the text in diffusion
+STEPS = 10  # of diffusion
+MOST_STEPS = 1000
+
+
+@dataclass(frozen=True)
+class Sampling:
+    """What :meth:`Generator.generate` should do with a text.
+
+    Attributes:
+        seconds: length, 0.5 to 10.
+        seed: 0 or more; None draws one, which is then found here.
+        n: how many motions.
+        temperature: how far samples stray: 1 as trained, 0 not at all.
+        sampler: ``"diffusion"``, or ``"vae"``: straight from the text encoder's distribution.
+        guidance: how much more the text counts than in training, for diffusion; 1 is as trained.
+        steps: calls of the denoiser, 1 to 1000, for diffusion.
+        foot_lock: let standing feet stand still.
+
+    Raises:
+        InvalidInputError: any of them out of range; the message says what is possible.
+    """
+
+    seconds: float = SECONDS
+    seed: int | None = None
+    n: int = 1
+    temperature: float = 1.0
+    sampler: str = DEFAULT_SAMPLER
+    guidance: float = GUIDANCE
+    steps: int = STEPS
+    foot_lock: bool = True
+    frames: int = field(init=False)
+
+    def __post_init__(self) -> None:
+        _set(self, "seconds", checked_number(self.seconds, "seconds", SHORTEST_S, LONGEST_S))
+        _set(self, "frames", round(self.seconds * sinc135.FPS))
+        _set(self, "temperature", checked_number(self.temperature, "temperature", 0.0))
+        _set(self, "guidance", checked_number(self.guidance, "guidance", 0.0))
+        _set(self, "n", checked_whole(self.n, "n", 1))
+        _set(self, "steps", checked_whole(self.steps, "steps", 1, MOST_STEPS))
+        _set(self, "seed", fresh_seed() if self.seed is None else checked_whole(self.seed, "seed", 0))
+        if self.sampler not in SAMPLERS:
+            raise InvalidInputError(f"unknown sampler {self.sampler!r}; choose one of: {', '.join(SAMPLERS)}")
+
+    def noise(self, sample: int, width: int) -> FloatArray:
+        """``(width,)`` float32 for sample number ``sample``: the same however many samples there are."""
+        stream = np.random.default_rng([self.seed or 0, sample])
+        return np.float32(self.temperature) * stream.standard_normal(width, dtype=np.float32)
+
+    def with_seconds(self, seconds: float) -> Sampling:
+        """The same, of another length."""
+        return replace(self, seconds=seconds)
+
+
+def fresh_seed() -> int:
+    """A seed that nobody chose."""
+    return int(np.random.SeedSequence().generate_state(1)[0])
+
+
+def _set(sampling: Sampling, name: str, value: float) -> None:
+    object.__setattr__(sampling, name, value)
+
+
+def checked_number(value: Any, name: str, least: float, most: float = math.inf) -> float:
+    """``value`` as a finite number in a range; InvalidInputError otherwise, which says the name and the range."""
+    try:
+        number = math.nan if isinstance(value, bool | str) else float(value)
+    except (TypeError, ValueError):
+        number = math.nan
+    if not (math.isfinite(number) and least <= number <= most):
+        raise InvalidInputError(f"{name} must be a number {_range(least, most)}, not {value!r}")
+    return number
+
+
+def checked_whole(value: Any, name: str, least: int, most: float = math.inf) -> int:
+    """``value`` as a whole number in a range; InvalidInputError otherwise, which says the name and the range."""
+    if isinstance(value, bool) or not isinstance(value, int | np.integer) or not least <= value <= most:
+        raise InvalidInputError(f"{name} must be a whole number {_range(least, most)}, not {value!r}")
+    return int(value)
+
+
+def _range(least: float, most: float) -> str:
+    return f"from {least:g}" if most == math.inf else f"from {least:g} to {most:g}"
