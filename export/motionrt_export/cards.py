@@ -30,6 +30,10 @@ class Card:
 _TMR_DATA = CMU, CAPTIONS
 _MOTION_DATA = CMU, LOCOMOTION
 _CONTINUAL = "motionrt, after Generating Continual Human Motion in Diverse 3D Scenes"
+_TEMOS_ATTRIBUTION = (
+    "motionrt, after TEMOS (Petrovich, Black, Varol, ECCV 2022) and SINC (Athanasiou et al., ICCV 2023)"
+)
+_TEMOS_STATISTICS = "mean and standard deviation of every egocentric feature over the training split, inside the graph"
 _TMR_ATTRIBUTION = "motionrt, after TMR (Petrovich, Black, Varol, ICCV 2023)"
 
 CARDS: Mapping[str, Card] = {
@@ -76,6 +80,30 @@ CARDS: Mapping[str, Card] = {
         _MOTION_DATA,
         "of frames seen from the target, their changes and the wanted corrections, over the training split, inside the "
         "graph",
+    ),
+    "temos_text": Card(
+        "text encoder of TEMOS: token features of the sentence encoder into a distribution of motion latents",
+        _TEMOS_ATTRIBUTION,
+        _TMR_DATA,
+        "none",
+    ),
+    "temos_motion": Card(
+        "motion encoder of TEMOS: sinc135 features at 30 fps into a distribution of motion latents",
+        _TEMOS_ATTRIBUTION,
+        _TMR_DATA,
+        _TEMOS_STATISTICS,
+    ),
+    "temos_decoder": Card(
+        "motion decoder of TEMOS: a latent into sinc135 features at 30 fps, from above the origin, facing +Z",
+        _TEMOS_ATTRIBUTION,
+        _TMR_DATA,
+        _TEMOS_STATISTICS,
+    ),
+    "latent_denoiser": Card(
+        "one step of latent diffusion: a noisy latent of TEMOS and a text into the clean latent, guidance inside",
+        "motionrt, after Executing your Commands via Motion Diffusion in Latent Space (Chen et al., CVPR 2023)",
+        _TMR_DATA,
+        "mean and standard deviation of the latents of TEMOS over the training split, inside the graph",
     ),
     "pose_prior": Card(
         "decoder of a variational autoencoder over poses: a normal latent into 24 joint rotations",

@@ -9,8 +9,9 @@ import numpy as np
 import torch
 
 from motionrt_export.calibration import SENTENCES
-from motionrt_export.specs import GraphSpec
+from motionrt_export.specs import GraphSpec, TensorSpec
 from motionrt_training.networks.minilm import MiniLM
+from motionrt_training.networks.temos import Temos
 from motionrt_training.networks.tmr import TMR
 
 Array = np.ndarray[Any, Any]
@@ -24,21 +25,21 @@ class Examples(Protocol):
 
 
 def random_examples(spec: GraphSpec) -> Examples:
-    """Numbers from a normal distribution, ids from 1000 to 1999: for untrained networks."""
+    """Numbers from a normal distribution, the upper half of the whole numbers there are: for untrained networks."""
 
     def make(batch: int, length: int, seed: int) -> Feeds:
         random = np.random.default_rng(seed)
         sizes = spec.sizes(batch, length)
-        return {tensor.name: _random(random, tensor.dtype, tensor.resolved(sizes)) for tensor in spec.inputs}
+        return {tensor.name: _random(random, tensor, tensor.resolved(sizes)) for tensor in spec.inputs}
 
     return make
 
 
-def _random(random: np.random.Generator, dtype: str, shape: tuple[int, ...]) -> Array:
-    if dtype == "bool":
+def _random(random: np.random.Generator, tensor: TensorSpec, shape: tuple[int, ...]) -> Array:
+    if tensor.dtype == "bool":
         return np.ones(shape, dtype=bool)
-    if dtype == "int64":
-        return random.integers(1000, 2000, shape)
+    if tensor.dtype == "int64":
+        return random.integers(tensor.below // 2, tensor.below, shape)
     return random.standard_normal(shape).astype(np.float32)
 
 
@@ -70,7 +71,7 @@ class Sentences:
 class Motions:
     """What the networks make of the sentences: token features, latents, and motions decoded from them."""
 
-    def __init__(self, sentences: Sentences, backbone: MiniLM, model: TMR) -> None:
+    def __init__(self, sentences: Sentences, backbone: MiniLM, model: TMR | Temos) -> None:
         self._sentences, self._backbone, self._model = sentences, backbone, model
 
     def text(self, batch: int, length: int, seed: int) -> Feeds:
@@ -95,9 +96,12 @@ class Motions:
         features: Array = self._backbone(ids, mask).numpy()
         return features
 
-    @torch.no_grad()
     def _latents(self, batch: int, seed: int) -> Array:
-        feeds = self.text(batch, 16, seed)
+        return self.latents(self.text(batch, 16, seed))
+
+    @torch.no_grad()
+    def latents(self, feeds: Feeds) -> Array:
+        """Latents (B, 256) that the text encoder gives its inputs."""
         features, mask = torch.from_numpy(feeds["token_features"]), torch.from_numpy(feeds["attention_mask"])
         latents: Array = self._model.encode_text(features, mask).mu.numpy()
         return latents

@@ -6,7 +6,7 @@ import torch
 from torch import Tensor, nn
 
 from motionrt_export.layers import Decoder, Encoder, folded
-from motionrt_training.networks.actor import ActorDecoder, ActorEncoder, patched
+from motionrt_training.networks.actor import FIRST_LOGVAR, ActorDecoder, ActorEncoder, patched
 from motionrt_training.networks.minilm import MiniLM, mean_pooled
 from motionrt_training.networks.tmr import TMR
 from motionrt_training.networks.transformer import key_bias, sinusoidal_positions
@@ -36,20 +36,20 @@ class SentenceEncoderGraph(nn.Module):
         return x, mean_pooled(x, attention_mask)
 
 
-class ActorEncoderGraph(nn.Module):
-    """The mean of an `ActorEncoder`: its last layer answers for the one token that is read."""
+class ActorAnswers(nn.Module):
+    """An `ActorEncoder` whose last layer answers for the tokens that are read: the mean's, or the logvar's as well."""
 
-    def __init__(self, source: ActorEncoder) -> None:
+    def __init__(self, source: ActorEncoder, *, read: int) -> None:
         super().__init__()
         self.d, self.patch = source.d, source.patch
         self.project, self.tokens = source.project, source.tokens
         last = len(source.layers) - 1
         self.layers = nn.ModuleList(
-            Encoder(layer, first_only=index == last) for index, layer in enumerate(source.layers)
+            Encoder(layer, first=read if index == last else None) for index, layer in enumerate(source.layers)
         )
 
-    def forward(self, x: Tensor, mask: Tensor) -> tuple[Tensor, Tensor]:
-        """X (B, F, in_dim), mask (B, F) bool -> embedding and latent (B, d)."""
+    def answers(self, x: Tensor, mask: Tensor) -> Tensor:
+        """X (B, F, in_dim), mask (B, F) bool -> (B, read, d)."""
         x, mask = patched(x, mask, self.patch)
         x = torch.cat((self.tokens.expand(x.shape[0], -1, -1), self.project(x)), dim=1)
         x = x + sinusoidal_positions(x.shape[1], self.d, x)
@@ -57,8 +57,31 @@ class ActorEncoderGraph(nn.Module):
         bias = key_bias(torch.cat((always, always, mask), dim=1))
         for layer in self.layers:
             x = layer(x, bias)
-        latent = x[:, 0]
+        return x
+
+
+class ActorEncoderGraph(ActorAnswers):
+    """The mean of an `ActorEncoder`."""
+
+    def __init__(self, source: ActorEncoder) -> None:
+        super().__init__(source, read=1)
+
+    def forward(self, x: Tensor, mask: Tensor) -> tuple[Tensor, Tensor]:
+        """X (B, F, in_dim), mask (B, F) bool -> embedding and latent (B, d)."""
+        latent = self.answers(x, mask)[:, 0]
         return unit(latent), latent
+
+
+class DistributionGraph(ActorAnswers):
+    """Mean and logvar of an `ActorEncoder`."""
+
+    def __init__(self, source: ActorEncoder) -> None:
+        super().__init__(source, read=2)
+
+    def forward(self, x: Tensor, mask: Tensor) -> tuple[Tensor, Tensor]:
+        """X (B, F, in_dim), mask (B, F) bool -> mu and logvar (B, d)."""
+        x = self.answers(x, mask)
+        return x[:, 0], x[:, 1] + FIRST_LOGVAR
 
 
 class TextEncoderGraph(nn.Module):

@@ -13,6 +13,7 @@ from motionrt_training.networks.transformer import (
     EncoderLayer,
     LatentAttention,
     MultiHeadSelfAttention,
+    ResidualLayer,
 )
 
 
@@ -33,19 +34,19 @@ def constant(value: Tensor) -> nn.Parameter:
 class Attention(nn.Module):
     """Self-attention; the query weights hold the factor 1/sqrt(d/heads) where that is exact, a power of two.
 
-    `first_only` computes the answer of the first token alone, exactly: keys and values come from all tokens.
+    `first` computes the answers of so many tokens alone, exactly: keys and values come from all tokens.
     """
 
-    def __init__(self, source: MultiHeadSelfAttention, *, first_only: bool = False) -> None:
+    def __init__(self, source: MultiHeadSelfAttention, *, first: int | None = None) -> None:
         super().__init__()
         d = source.out.in_features
-        self.d, self.heads, self.first_only = d, source.heads, first_only
+        self.d, self.heads, self.first = d, source.heads, first
         scale = (d // source.heads) ** -0.5
         self.scale = 1.0 if math.frexp(scale)[0] == 0.5 else scale
         scale /= self.scale
         q, k, v = (source.qkv.weight[part * d : (part + 1) * d] for part in range(3))
         bq, bk, bv = (source.qkv.bias[part * d : (part + 1) * d] for part in range(3))
-        if first_only:
+        if first is not None:
             self.q = linear(q * scale, bq * scale)
             self.kv = linear(torch.cat((k, v)), torch.cat((bk, bv)))
         else:
@@ -53,9 +54,9 @@ class Attention(nn.Module):
         self.out = linear(source.out.weight, source.out.bias)
 
     def forward(self, x: Tensor, bias: Tensor | None = None) -> Tensor:
-        """X (B, T, d), bias (B, 1, 1, T) or none -> (B, T, d), or (B, 1, d) of the first token."""
-        if self.first_only:
-            q = self._split(self.q(x[:, :1]), 1)
+        """X (B, T, d), bias (B, 1, 1 or answers, T) or none -> (B, T, d), or (B, first, d) of the first tokens."""
+        if self.first is not None:
+            q = self._split(self.q(x[:, : self.first]), 1)
             k, v = self._split(self.kv(x), 2).split(self.heads, dim=1)
         else:
             q, k, v = self._split(self.qkv(x), 3).split(self.heads, dim=1)  # (B, H, T, d/H)
@@ -96,15 +97,15 @@ class Norm(nn.Module):
 class Encoder(nn.Module):
     """One post-norm encoder layer."""
 
-    def __init__(self, source: EncoderLayer, *, first_only: bool = False) -> None:
+    def __init__(self, source: EncoderLayer, *, first: int | None = None) -> None:
         super().__init__()
-        self.first_only = first_only
-        self.attention = Attention(source.attention, first_only=first_only)
+        self.first = first
+        self.attention = Attention(source.attention, first=first)
         self.feed = FeedForward(source.feed.up, source.feed.down)
         self.norm1, self.norm2 = source.norm1, source.norm2
 
     def forward(self, x: Tensor, bias: Tensor | None = None) -> Tensor:
-        kept = x[:, :1] if self.first_only else x
+        kept = x if self.first is None else x[:, : self.first]
         x = self.norm1(kept + self.attention(x, bias))
         return self.norm2(x + self.feed(x))
 
@@ -123,6 +124,24 @@ class Decoder(nn.Module):
         x = self.norm1(x + self.attention(x, bias))
         x = self.norm2(x + heard)
         return self.norm3(x + self.feed(x))
+
+
+class Residual(nn.Module):
+    """One pre-norm layer; what it hears of a latent comes ready from `folded`."""
+
+    def __init__(self, source: ResidualLayer, *, first: int | None = None) -> None:
+        super().__init__()
+        self.first = first
+        self.attention = Attention(source.attention, first=first)
+        self.feed = FeedForward(source.feed.up, source.feed.down)
+        self.norm1, self.norm2 = source.norm1, source.norm2
+
+    def forward(self, x: Tensor, bias: Tensor, heard: Tensor | None = None) -> Tensor:
+        """X (B, T, d), heard (B, 1, d) -> (B, T, d), or (B, first, d) of the first tokens."""
+        kept = x if self.first is None else x[:, : self.first]
+        x = kept + self.attention(self.norm1(x), bias)
+        x = x if heard is None else x + heard
+        return x + self.feed(self.norm2(x))
 
 
 def folded(attentions: list[LatentAttention]) -> nn.Linear:

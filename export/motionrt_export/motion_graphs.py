@@ -41,7 +41,8 @@ class Hidden(nn.ModuleList):
     def __init__(self, source: MotionTransformer, tokens: int, *, first_only: bool = False) -> None:
         last = len(source.layers) - 1
         super().__init__(
-            Encoder(layer, first_only=first_only and index == last) for index, layer in enumerate(source.layers)
+            Encoder(layer, first=1 if first_only and index == last else None)
+            for index, layer in enumerate(source.layers)
         )
         for layer in self if tokens > FEW else ():
             layer.norm1, layer.norm2 = Norm(layer.norm1), Norm(layer.norm2)

@@ -49,6 +49,10 @@ SENTENCE_ENCODER = Quantisation(("/feed/down/",), smoothed=("/qkv/", "/feed/up/"
 ENCODER = Quantisation(("/project/",))
 DECODER = Quantisation(("/project/", "/hear/"))
 MOTION = Quantisation(exact=("/aim/", "/answer/"))
+TEMOS_TEXT = Quantisation(("/project/",), exact=("/text_mu/",))
+TEMOS_MOTION = Quantisation(("/project/", "/gather/"))
+TEMOS_DECODER = Quantisation(("/hear/", "/shape/", "/enter/"), exact=("/project/", "/clock/"))
+DENOISER = Quantisation(("/read_text/",), exact=("/read_latent/", "/out/"))
 
 CHOICES: dict[str, Quantisation | None] = {
     "sentence_encoder": SENTENCE_ENCODER,
@@ -58,6 +62,10 @@ CHOICES: dict[str, Quantisation | None] = {
     "walknet": MOTION,
     "transnet": MOTION,
     "pose_prior": None,  # its differences are taken, and it is small: shipped as float32
+    "temos_text": TEMOS_TEXT,
+    "temos_motion": TEMOS_MOTION,
+    "temos_decoder": TEMOS_DECODER,
+    "latent_denoiser": DENOISER,
 }
 
 

@@ -19,7 +19,6 @@ from motionrt_export.measures import Figures, rounded
 from motionrt_export.optimise import CHOICES, FP32, QUANTISED, quantise, shipped, variants
 from motionrt_export.sources import Source, Sources
 from motionrt_export.tolerances import FLOAT32, INT8
-from motionrt_export.trace import trace
 from motionrt_training.networks.minilm import MAX_TOKENS
 
 SENTENCE_ENCODER = "sentence_encoder"
@@ -52,7 +51,13 @@ def tolerance(model: str, variant: str) -> Figures:
 
 
 def publish(sources: Sources, layout: Layout, check: Check, quality: Mapping[str, Any], say: Say) -> None:
-    """Export, quantise and validate every model, then write the manifest; on failure it is not touched."""
+    """Export, quantise and validate every model, then write the manifest; on failure it is not touched.
+
+    Raises:
+        MissingCheckpointsError: before anything is written.
+        ValidationError: a file is beyond its tolerance.
+    """
+    sources.check()
     tokenizer = _publish_tokenizer(sources, layout)
     entries = {}
     for name in CHOICES:
@@ -68,10 +73,11 @@ def publish(sources: Sources, layout: Layout, check: Check, quality: Mapping[str
 
 def _export(source: Source, layout: Layout) -> None:
     name = source.spec.name
-    exact = trace(source.module, source.spec)
-    _save(exact, layout.file(name, FP32))
+    exact = source.traced()
+    _save(source.finished(exact), layout.file(name, FP32))
     if choice := CHOICES[name]:
-        _save(quantise(exact, choice, source.calibration()), layout.file(name, QUANTISED))
+        small = quantise(exact, choice, source.calibration())
+        _save(source.finished(small), layout.file(name, QUANTISED))
 
 
 def _save(model: onnx.ModelProto, path: Path) -> None:

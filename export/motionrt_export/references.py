@@ -10,9 +10,12 @@ import torch
 from torch import Tensor
 
 from motionrt_export.motion_graphs import WalkNetGraph
+from motionrt_export.specs import LATENT_DENOISER
 from motionrt_training.networks.actor import Distribution
+from motionrt_training.networks.latent_denoiser import LatentDenoiser
 from motionrt_training.networks.minilm import MiniLM, mean_pooled
 from motionrt_training.networks.pose_prior import PosePrior
+from motionrt_training.networks.temos import Temos
 from motionrt_training.networks.tmr import TMR
 from motionrt_training.networks.transnet import TransNet
 from motionrt_training.networks.walknet import WalkNet
@@ -65,6 +68,27 @@ def transition_reference(model: TransNet) -> Reference:
 def pose_reference(model: PosePrior) -> Reference:
     """Rotations of a latent."""
     return _reference(lambda latent: {"rotations": model.decode(latent)}, "latent")
+
+
+def temos_text_reference(model: Temos) -> Reference:
+    """Distribution of token features."""
+    return _reference(lambda x, mask: model.encode_text(x, mask)._asdict(), "token_features", "attention_mask")
+
+
+def temos_motion_reference(model: Temos) -> Reference:
+    """Distribution of raw features."""
+    return _reference(lambda x, mask: model.encode_motion(x, mask)._asdict(), "motion", "mask")
+
+
+def temos_decoder_reference(model: Temos) -> Reference:
+    """Raw features of a latent."""
+    return _reference(lambda z, mask: {"motion": model.decode(z, mask)}, "latent", "mask")
+
+
+def denoiser_reference(model: LatentDenoiser) -> Reference:
+    """Clean latents, guided, normalised and raw."""
+    names = [tensor.name for tensor in LATENT_DENOISER.inputs]
+    return _reference(lambda *given: dict(zip(("clean", "latent_out"), model.guided(*given), strict=True)), *names)
 
 
 def _encoded(distribution: Distribution) -> dict[str, Tensor]:

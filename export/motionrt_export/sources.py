@@ -9,25 +9,37 @@ from pathlib import Path
 from typing import Any, Generic
 
 import numpy as np
+import onnx
 from torch import nn
 
 from motionrt_export import references, specs
 from motionrt_export.calibration import sentence_ids
 from motionrt_export.drift import TransitionDrift, WalkDrift
 from motionrt_export.examples import Examples, Feeds, Motions, Sentences, random_examples
+from motionrt_export.generation_drift import DecoderDrift, DenoiserDrift
+from motionrt_export.generation_graphs import LatentDenoiserGraph, TemosDecoderGraph, TemosMotionGraph, TemosTextGraph
 from motionrt_export.graphs import DecoderGraph, MotionEncoderGraph, SentenceEncoderGraph, TextEncoderGraph
 from motionrt_export.motion_graphs import TransNetGraph, WalkNetGraph
+from motionrt_export.noising import Noised
 from motionrt_export.references import Reference
 from motionrt_export.specs import GraphSpec
+from motionrt_export.step_graphs import STEP, Steps
+from motionrt_export.trace import trace
 from motionrt_export.transitions import Transitions
 from motionrt_export.validate import Trial
 from motionrt_export.walks import Walks
-from motionrt_training.checkpoint import Network, load_release, network_name
+from motionrt_training.checkpoint import NETWORKS, Network, load_release, network_name
+from motionrt_training.networks.latent_denoiser import LatentDenoiser
 from motionrt_training.networks.minilm import MiniLM, package_folder
 from motionrt_training.networks.pose_prior import PosePrior
+from motionrt_training.networks.temos import Temos
 from motionrt_training.networks.tmr import TMR
 from motionrt_training.networks.transnet import TransNet
 from motionrt_training.networks.walknet import WalkNet
+
+
+class MissingCheckpointsError(FileNotFoundError):
+    """Released networks that are to be exported are not in the folder; the message names their files."""
 
 
 @dataclass(frozen=True)
@@ -43,7 +55,8 @@ class Release(Generic[Network]):
 class Source:
     """One graph: the module to export, the reference it must equal, inputs to try, units of the errors.
 
-    `release` is where its weights come from, `calibration` gives inputs for quantising, `trial` is a longer use.
+    `release` is where its weights come from, `calibration` gives inputs for quantising, `trial` is a longer use. With
+    `steps` the module is one step, and the graph is a loop of them.
     """
 
     spec: GraphSpec
@@ -54,15 +67,25 @@ class Source:
     release: Release[Any] | None = None
     calibration: Callable[[], Iterable[Feeds]] = tuple
     trial: Trial | None = None
+    steps: Steps | None = None
+
+    def traced(self) -> onnx.ModelProto:
+        """The graph in float32, or the step that it repeats: what is quantised."""
+        return trace(self.module, STEP if self.steps else self.spec)
+
+    def finished(self, traced: onnx.ModelProto) -> onnx.ModelProto:
+        """The graph of the file."""
+        return self.steps.looped(traced) if self.steps else traced
 
 
 class Sources:
     """The released checkpoints and the sentence encoder's package, read when they are needed.
 
-    `steps` and `characters` say how far how many characters walk when WalkNet is validated.
+    `steps` and `characters` say how far how many characters walk when WalkNet is validated, `generations` how many
+    motions are made when TEMOS and its denoiser are.
     """
 
-    steps, characters = 1000, 16
+    steps, characters, generations = 1000, 16, 64
 
     def __init__(self, checkpoints: Path) -> None:
         self.folder = checkpoints
@@ -70,6 +93,13 @@ class Sources:
     def checkpoint(self, network: type[nn.Module]) -> Path:
         """The file that a network is released in."""
         return self.folder / f"{network_name(network)}.safetensors"
+
+    def check(self) -> None:
+        """Raise MissingCheckpointsError unless all released networks are there."""
+        paths = [self.checkpoint(network) for network in NETWORKS.values()]
+        if missing := [str(path) for path in paths if not path.is_file()]:
+            how = "python -m motionrt_training.checkpoint RUN/best.pt --network NAME -o FILE"
+            raise MissingCheckpointsError(f"no released model at {', '.join(missing)}; train, then: {how}")
 
     def load(self, network: type[Network]) -> tuple[Network, Mapping[str, str]]:
         """A released network and how it came to be."""
@@ -98,6 +128,14 @@ class Sources:
     def pose_prior(self) -> Release[PosePrior]:
         return self._released(PosePrior)
 
+    @cached_property
+    def temos(self) -> Release[Temos]:
+        return self._released(Temos)
+
+    @cached_property
+    def latent_denoiser(self) -> Release[LatentDenoiser]:
+        return self._released(LatentDenoiser)
+
     @property
     def tokenizer_file(self) -> Path:
         return package_folder() / "tokenizer.json"
@@ -116,6 +154,10 @@ class Sources:
             specs.WALKNET.name: self._walknet,
             specs.TRANSNET.name: self._transnet,
             specs.POSE_PRIOR.name: self._pose_prior,
+            specs.TEMOS_TEXT.name: self._temos_text,
+            specs.TEMOS_MOTION.name: self._temos_motion,
+            specs.TEMOS_DECODER.name: self._temos_decoder,
+            specs.LATENT_DENOISER.name: self._latent_denoiser,
         }
         return makers[name]()
 
@@ -157,6 +199,37 @@ class Sources:
     def _pose_prior(self) -> Source:
         model, spec = self.pose_prior.model, specs.POSE_PRIOR
         return Source(spec, model, references.pose_reference(model), random_examples(spec), release=self.pose_prior)
+
+    def _temos_text(self) -> Source:
+        model = self.temos.model
+        module, reference = TemosTextGraph(model), references.temos_text_reference(model)
+        return Source(specs.TEMOS_TEXT, module, reference, self._generated.text, release=self.temos)
+
+    def _temos_motion(self) -> Source:
+        model = self.temos.model
+        module, reference = TemosMotionGraph(model), references.temos_motion_reference(model)
+        return Source(specs.TEMOS_MOTION, module, reference, self._generated.motion, release=self.temos)
+
+    def _temos_decoder(self) -> Source:
+        model, examples = self.temos.model, self._generated.decoder
+        reference, trial = (
+            references.temos_decoder_reference(model),
+            DecoderDrift(self._generated, count=self.generations),
+        )
+        steps = Steps.of(model)
+        module = steps.step if steps else TemosDecoderGraph(model)
+        return Source(specs.TEMOS_DECODER, module, reference, examples, release=self.temos, trial=trial, steps=steps)
+
+    def _latent_denoiser(self) -> Source:
+        model, spec = self.latent_denoiser.model, specs.LATENT_DENOISER
+        module, reference = LatentDenoiserGraph(model), references.denoiser_reference(model)
+        examples, decode = Noised(self._generated, model), references.temos_decoder_reference(self.temos.model)
+        trial = DenoiserDrift(self._generated, decode, count=self.generations)
+        return Source(spec, module, reference, examples, release=self.latent_denoiser, trial=trial)
+
+    @cached_property
+    def _generated(self) -> Motions:
+        return Motions(self.sentences, self.backbone, self.temos.model)
 
     @cached_property
     def _motions(self) -> Motions:

@@ -12,13 +12,14 @@ Axis = int | str  # a number, or the name of a dynamic axis
 
 @dataclass(frozen=True)
 class TensorSpec:
-    """One input or output: `shape` holds numbers and the names of dynamic axes."""
+    """One input or output: `shape` holds numbers and the names of dynamic axes, whole numbers lie under `below`."""
 
     name: str
     dtype: str  # float32, int64 or bool
     shape: tuple[Axis, ...]
     unit: str
     meaning: str
+    below: int = 2000
 
     def dynamic_axes(self) -> dict[int, str]:
         """{position: name} of the axes that are not fixed."""
@@ -127,4 +128,33 @@ POSE_PRIOR = GraphSpec(
             "rotations", "float32", ("batch", 24, 3, 3), "1", "local to the parent; the pelvis tilts and has no yaw"
         ),
     ),
+)
+
+_TEMOS_LATENT = TensorSpec("latent", "float32", ("batch", 256), "1", "raw latent of TEMOS")
+_SINC = TensorSpec(
+    "motion", "float32", ("batch", "frames", 135), "1, m", "raw sinc135 features at 30 fps, not normalised"
+)
+_DISTRIBUTION = (
+    TensorSpec("mu", "float32", ("batch", 256), "1", "means of the predicted distribution"),
+    TensorSpec("logvar", "float32", ("batch", 256), "1", "natural logarithms of its variances"),
+)
+TEMOS_TEXT = GraphSpec("temos_text", (_TOKEN_FEATURES, _TOKEN_MASK), _DISTRIBUTION, "tokens", "attention_mask", ("mu",))
+TEMOS_MOTION = GraphSpec("temos_motion", (_SINC, _FRAME_MASK), _DISTRIBUTION, "frames", "mask", ("mu",))
+TEMOS_DECODER = GraphSpec("temos_decoder", (_TEMOS_LATENT, _FRAME_MASK), (_SINC,), "frames", "mask", ())
+LATENT_DENOISER = GraphSpec(
+    "latent_denoiser",
+    (
+        TensorSpec("latent", "float32", ("batch", 256), "1", "noisy latent, normalised: pure noise is standard normal"),
+        TensorSpec("timestep", "int64", ("batch",), "1", "0 (hardly any noise) to 999 (nothing else)", below=1000),
+        _TOKEN_FEATURES,
+        _TOKEN_MASK,
+        TensorSpec("guidance", "float32", ("batch",), "1", "weight of the text: 0 without it, 1 as trained"),
+    ),
+    (
+        TensorSpec("clean", "float32", ("batch", 256), "1", "estimate of the clean latent, normalised"),
+        TensorSpec("latent_out", "float32", ("batch", 256), "1", "the same as a raw latent of TEMOS"),
+    ),
+    "tokens",
+    "attention_mask",
+    ("clean", "latent_out"),
 )

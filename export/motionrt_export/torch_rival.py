@@ -20,6 +20,7 @@ from motionrt.bench.rivals import Rival
 from motionrt.bench.timing import Call
 from motionrt.bench.workload import ANSWER, MOTION, SEARCH_SIZES, TEXT, TEXTS, TOP, Workload, search_case
 from motionrt.models import find_manifest
+from motionrt_export.torch_makes import make_cases
 from motionrt_export.torch_moves import move_cases, released
 from motionrt_training.networks.minilm import MAX_TOKENS, MiniLM, package_folder
 from motionrt_training.networks.tmr import TMR
@@ -42,9 +43,14 @@ class TorchModel:
     @torch.inference_mode()
     def embed_text(self, text: str) -> Tensor:
         """Unit embedding (256,)."""
+        return F.normalize(self.tmr.encode_text(*self.encode(text)).mu[0], dim=0)
+
+    @torch.inference_mode()
+    def encode(self, text: str) -> tuple[Tensor, Tensor]:
+        """Features of the tokens (1, T, 384) and their mask (1, T)."""
         ids = torch.tensor([self.tokenizer.encode(text).ids])
         mask = torch.ones_like(ids)
-        return F.normalize(self.tmr.encode_text(self.sentences(ids, mask), mask).mu[0], dim=0)
+        return self.sentences(ids, mask), mask
 
     @torch.inference_mode()
     def embed_motion(self, features: Tensor) -> Tensor:
@@ -65,7 +71,7 @@ def open_torch(work: Workload, threads: int, models: str | None = None) -> Rival
     }
     for size in SEARCH_SIZES:
         cases[search_case(size)] = _search(vectors[:size], vectors[-1])
-    cases |= move_cases(work.moves, _folder(models))
+    cases |= move_cases(work.moves, _folder(models)) | make_cases(model.encode, _folder(models))
     return Rival(cases, [sys.executable, "-m", "motionrt_export.torch_rival", *([models] if models else [])])
 
 

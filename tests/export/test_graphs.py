@@ -76,7 +76,7 @@ def test_attention_of_the_first_token_is_the_first_row_of_the_full_one(heads: in
     x, bias = torch.randn(2, 9, 384), key_bias(masks(2, 9))
     full = source(x, bias)
     torch.testing.assert_close(Attention(source)(x, bias), full, atol=1e-5, rtol=1e-5)
-    torch.testing.assert_close(Attention(source, first_only=True)(x, bias), full[:, :1], atol=1e-5, rtol=1e-5)
+    torch.testing.assert_close(Attention(source, first=1)(x, bias), full[:, :1], atol=1e-5, rtol=1e-5)
 
 
 def test_one_linear_map_holds_the_cross_attention_of_all_layers() -> None:

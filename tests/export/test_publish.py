@@ -16,10 +16,15 @@ from tiny_nets import TinySources, tiny_sources  # noqa: E402
 
 from motionrt.errors import ChecksumError  # noqa: E402
 from motionrt.models import TextMotionModel, load_manifest, verify  # noqa: E402
+from motionrt.motion.features import sinc135  # noqa: E402
+from motionrt.synthesis.generating import Generator  # noqa: E402
+from motionrt.synthesis.sampling import Sampling  # noqa: E402
 from motionrt_export.__main__ import main  # noqa: E402
 from motionrt_export.measures import Figures  # noqa: E402
 from motionrt_export.publish import Layout, publish, tolerance  # noqa: E402
+from motionrt_export.sources import MissingCheckpointsError  # noqa: E402
 from motionrt_export.validate import Subject, ValidationError, validate  # noqa: E402
+from motionrt_training.networks.latent_denoiser import draw_latents  # noqa: E402
 
 
 def layout(root: Path) -> Layout:
@@ -53,7 +58,7 @@ def digests(root: Path) -> dict[str, str]:
 def test_a_second_run_writes_the_same_bytes(published: tuple[Path, TinySources], tmp_path: Path) -> None:
     publish_tiny(tmp_path)
     assert digests(tmp_path) == digests(published[0])
-    assert len(digests(tmp_path)) == 7 + 6 + 2 + 4  # shipped files, others; manifest, tokenizer; checkpoints
+    assert len(digests(tmp_path)) == 11 + 10 + 2 + 6  # shipped files, others; manifest, tokenizer; checkpoints
 
 
 def test_the_runtime_reads_the_manifest_and_finds_every_file(published: tuple[Path, TinySources]) -> None:
@@ -101,6 +106,39 @@ def test_a_file_beyond_its_tolerance_leaves_no_manifest(tmp_path: Path) -> None:
     with pytest.raises(ValidationError, match=r"sentence_encoder\.fp32: beyond"):
         publish(tiny_sources(tmp_path / "models"), layout(tmp_path), check, {}, lambda _: None)
     assert not (tmp_path / "models_manifest.yaml").exists()
+
+
+def test_without_all_checkpoints_nothing_is_written(tmp_path: Path) -> None:
+    sources = tiny_sources(tmp_path / "models")
+    for name in ("temos", "latent_denoiser"):
+        (tmp_path / "models" / f"{name}.safetensors").unlink()
+    before = digests(tmp_path)
+    with pytest.raises(MissingCheckpointsError, match=r"no released model at .*temos.safetensors, .*latent_denoiser"):
+        publish(sources, layout(tmp_path), lambda *_: {}, {}, lambda _: None)
+    assert digests(tmp_path) == before
+
+
+def test_all_without_a_checkpoint_says_which(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    folders = {"--out": "models", "--build": "build", "--manifest": "models_manifest.yaml"}
+    options = [part for option, name in folders.items() for part in (option, str(tmp_path / name))]
+    assert main(["all", "--checkpoints", str(tmp_path), *options]) == 1
+    assert "latent_denoiser.safetensors" in capsys.readouterr().err
+    assert digests(tmp_path) == {}
+
+
+def test_the_runtime_generates_what_torch_generates(published: tuple[Path, TinySources]) -> None:
+    root, sources = published
+    temos, denoiser, model = sources.temos.model, sources.latent_denoiser.model, TextMotionModel(root, threads=1)
+    generator = Generator(model.sessions, "fp32")
+    ids = torch.from_numpy(generator.sentences.tokens("wave the right hand"))[None]
+    features, mask = sources.backbone(ids, torch.ones_like(ids)), torch.ones_like(ids)
+    how = Sampling(seconds=1.1, seed=3, sampler="diffusion", steps=4)
+    noise = torch.from_numpy(how.noise(0, 256))[None]
+    latent = draw_latents(denoiser, features, mask, noise, steps=4, guidance=how.guidance)
+    expected = temos.decode(latent, torch.ones(1, 33, dtype=torch.bool)).numpy()[0]
+    found = generator.decode(generator.latents("wave the right hand", how), how.frames)[0]
+    wanted = sinc135.decode(expected).positions()
+    np.testing.assert_allclose(found.positions(), wanted, atol=1e-3)
 
 
 def test_a_published_file_that_is_exchanged_is_refused(published: tuple[Path, TinySources], tmp_path: Path) -> None:

