@@ -86,9 +86,14 @@ def temos_decoder_reference(model: Temos) -> Reference:
 
 
 def denoiser_reference(model: LatentDenoiser) -> Reference:
-    """Clean latents, guided, normalised and raw."""
-    names = [tensor.name for tensor in LATENT_DENOISER.inputs]
-    return _reference(lambda *given: dict(zip(("clean", "latent_out"), model.guided(*given), strict=True)), *names)
+    """Clean latents, guided, normalised and raw; the text is one token, its latent."""
+
+    def guided(latent: Tensor, timestep: Tensor, text: Tensor, guidance: Tensor) -> dict[str, Tensor]:
+        shown = torch.ones(len(text), 1, dtype=torch.int64)
+        clean, raw = model.guided(latent, timestep, text[:, None], shown, guidance)
+        return {"clean": clean, "latent_out": raw}
+
+    return _reference(guided, *(tensor.name for tensor in LATENT_DENOISER.inputs))
 
 
 def _encoded(distribution: Distribution) -> dict[str, Tensor]:

@@ -146,15 +146,12 @@ LATENT_DENOISER = GraphSpec(
     (
         TensorSpec("latent", "float32", ("batch", 256), "1", "noisy latent, normalised: pure noise is standard normal"),
         TensorSpec("timestep", "int64", ("batch",), "1", "0 (hardly any noise) to 999 (nothing else)", below=1000),
-        _TOKEN_FEATURES,
-        _TOKEN_MASK,
+        TensorSpec("text_latent", "float32", ("batch", 256), "1", "mean of the text's latent, raw as of temos_text"),
         TensorSpec("guidance", "float32", ("batch",), "1", "weight of the text: 0 without it, 1 as trained"),
     ),
     (
         TensorSpec("clean", "float32", ("batch", 256), "1", "estimate of the clean latent, normalised"),
         TensorSpec("latent_out", "float32", ("batch", 256), "1", "the same as a raw latent of TEMOS"),
     ),
-    "tokens",
-    "attention_mask",
-    ("clean", "latent_out"),
+    embeddings=("clean", "latent_out"),
 )

@@ -134,7 +134,8 @@ def test_the_runtime_generates_what_torch_generates(published: tuple[Path, TinyS
     features, mask = sources.backbone(ids, torch.ones_like(ids)), torch.ones_like(ids)
     how = Sampling(seconds=1.1, seed=3, sampler="diffusion", steps=4)
     noise = torch.from_numpy(how.noise(0, 256))[None]
-    latent = draw_latents(denoiser, features, mask, noise, steps=4, guidance=how.guidance)
+    told = temos.encode_text(features, mask).mu[:, None]
+    latent = draw_latents(denoiser, told, torch.ones(1, 1), noise, steps=4, guidance=how.guidance)
     expected = temos.decode(latent, torch.ones(1, 33, dtype=torch.bool)).numpy()[0]
     found = generator.decode(generator.latents("wave the right hand", how), how.frames)[0]
     wanted = sinc135.decode(expected).positions()

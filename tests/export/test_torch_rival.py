@@ -80,7 +80,8 @@ def test_torch_generates_as_the_runtime_does(tmp_path: Path) -> None:
     how = Sampling(1.0, seed=5, steps=3)
     found = TorchGenerator(lambda _: (features, mask), tmp_path).latents("walk", how)
     noise = torch.from_numpy(how.noise(0, 256))[None]
-    expected = draw_latents(denoiser, features, mask, noise, steps=3, guidance=how.guidance)
+    told = temos.encode_text(features, mask).mu[:, None]
+    expected = draw_latents(denoiser, told, torch.ones(1, 1), noise, steps=3, guidance=how.guidance)
     np.testing.assert_allclose(found, expected.numpy(), atol=1e-4)
     how = Sampling(1.0, seed=5, temperature=0.0, sampler="vae")
     found = TorchGenerator(lambda _: (features, mask), tmp_path).latents("walk", how)

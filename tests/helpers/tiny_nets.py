@@ -91,7 +91,7 @@ def tiny_temos(patch: int = 8, decoder: str = "parallel") -> Temos:
 def tiny_latent_denoiser(layers: int = 3) -> LatentDenoiser:
     """A denoiser of thin layers that adds something to its first guess, with statistics of latents."""
     torch.manual_seed(9)
-    model = LatentDenoiser(layers=layers, ff=64, dropout=0.0)
+    model = LatentDenoiser(text_dim=256, layers=layers, ff=64, dropout=0.0)
     model.out.weight.data.normal_(0.0, 0.05)
     model.out.bias.data.normal_(0.0, 0.1)
     model.latent_mean.normal_(0.0, 0.5)

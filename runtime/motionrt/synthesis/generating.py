@@ -12,7 +12,7 @@ from motionrt.models.latent_denoiser import LatentDenoiser
 from motionrt.models.sessions import Sessions
 from motionrt.models.temos import LATENT, TemosModel
 from motionrt.models.text import MODEL as SENTENCES
-from motionrt.models.text import FloatArray, SentenceEncoder, SentenceFeatures, checked_text
+from motionrt.models.text import FloatArray, SentenceEncoder, checked_text
 from motionrt.motion import Motion
 from motionrt.motion.features import sinc135
 from motionrt.motion.foot_lock import lock_feet
@@ -57,9 +57,10 @@ class Generator:
         """``(n, 256)`` float32 latents of TEMOS drawn for a text; sample ``i`` is the same for every ``n``."""
         features = self.sentences.encode(text)
         noise = np.stack([sampling.noise(sample, LATENT) for sample in range(sampling.n)])
+        told = self.temos.encode_text(features)
         if sampling.sampler == "vae":
-            return self.temos.encode_text(features).at(noise)
-        denoise = partial(self._denoise, features, sampling.guidance)
+            return told.at(noise)
+        denoise = partial(self._denoise, told.mu, sampling.guidance)
         return np.concatenate([ddim(denoise, row[None], sampling.steps) for row in noise])
 
     def decode(self, latents: FloatArray, frames: int) -> list[Motion]:
@@ -69,17 +70,17 @@ class Generator:
         return [sinc135.decode(self.temos.decode(row[None], mask)[0, :frames]) for row in latents]
 
     def _denoise(
-        self, text: SentenceFeatures, guidance: float, latent: FloatArray, timestep: npt.NDArray[np.int64]
+        self, text: FloatArray, guidance: float, latent: FloatArray, timestep: npt.NDArray[np.int64]
     ) -> tuple[FloatArray, FloatArray]:
         weights = np.full(len(latent), guidance, np.float32)
-        return self.denoiser(latent, timestep, text.token_features, text.attention_mask, weights)
+        return self.denoiser(latent, timestep, np.repeat(text, len(latent), axis=0), weights)
 
     def _prepare(self, sampler: str) -> None:
         """Let the models open side by side, the first time."""
         if not self._prepared:
             self._prepared = True
-            drawing = temos.TEXT if sampler == "vae" else latent_denoiser.DENOISER
-            self.temos.sessions.prepare(SENTENCES, drawing, temos.DECODER, variant=self.temos.variant)
+            drawing = [] if sampler == "vae" else [latent_denoiser.DENOISER]
+            self.temos.sessions.prepare(SENTENCES, temos.TEXT, *drawing, temos.DECODER, variant=self.temos.variant)
 
 
 def finished(motion: Motion, foot_lock: bool = True) -> Motion:

@@ -115,8 +115,7 @@ def denoise(sessions: Sessions, text: SentenceFeatures, **changes: Any) -> tuple
     given = {
         "latent": np.ones((1, 256), np.float32),
         "timestep": np.array([500]),
-        "token_features": text.token_features,
-        "attention_mask": text.attention_mask,
+        "text_latent": text.token_features.mean(axis=1)[:, :256],
         "guidance": np.array([3.0]),
     }
     return LatentDenoiser(sessions)(**{**given, **changes})
@@ -139,7 +138,7 @@ def test_the_denoiser_answers_in_both_units(sessions: Sessions, text: SentenceFe
         {"timestep": np.array([-1])},
         {"timestep": np.array([1, 2])},
         {"guidance": np.array(2.0)},
-        {"token_features": np.zeros((1, 5, 383))},
+        {"text_latent": np.zeros((1, 384))},
     ],
 )
 def test_the_denoiser_refuses_what_does_not_fit(

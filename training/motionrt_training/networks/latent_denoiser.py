@@ -1,5 +1,7 @@
 """The denoiser of latent diffusion: a noisy TEMOS latent and a text -> the clean latent (MLD, Chen et al. 2023, 3.2).
 
+A text is a sequence of tokens; the shipped network is given one, the mean of the text's latent.
+
 The schedule and the sampling loop are `motionrt.synthesis.diffusion`. Noisy and clean latents are normalised, so that
 pure noise is standard normal; the statistics are inside, and the answer comes in both units.
 """
@@ -35,7 +37,7 @@ class LatentDenoiser(nn.Module):
 
     def __init__(
         self,
-        text_dim: int = 384,
+        text_dim: int = 256,
         latent: int = 256,
         d: int = 256,
         layers: int = 5,
@@ -67,7 +69,7 @@ class LatentDenoiser(nn.Module):
         Args:
             latent: z_t (B, 256), normalised.
             timestep: (B,) int64 in [0, 1000).
-            tokens: features of the text's tokens (B, T, 384).
+            tokens: the text's tokens (B, T, text_dim).
             mask: (B, T), True or 1 where there is a token; a row without any is without text.
         """
         angle = self.angle[timestep][:, None]  # (B, 1)
@@ -138,7 +140,7 @@ def _first_token(layer: Any, x: Tensor, bias: Tensor) -> Tensor:
 def draw_latents(
     model: LatentDenoiser, tokens: Tensor, mask: Tensor, noise: Tensor, steps: int = 10, guidance: float = 2.5
 ) -> Tensor:
-    """Raw TEMOS latents (B, 256) of texts (B, T, 384) with mask (B, T), by DDIM from standard normal noise (B, 256)."""
+    """Raw TEMOS latents (B, 256) of texts (B, T, text_dim) with mask (B, T), by DDIM from standard normal noise (B, 256)."""
     strength = torch.full((len(noise),), guidance, device=noise.device)
 
     def denoise(latent: FloatArray, timestep: npt.NDArray[np.int64]) -> tuple[FloatArray, FloatArray]:

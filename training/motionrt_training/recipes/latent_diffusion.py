@@ -5,10 +5,10 @@ r"""Train the denoiser of latent diffusion on the latents of a trained TEMOS (ML
         --out runs/latent_denoiser --minutes 15 --lr 5e-4 --ema 0.995
 
 TEMOS is frozen. A text is told to the denoiser by the mean of its latent, one token: the text encoder of TEMOS has read
-the captions for hours already. The posteriors of many views of the clips (crops, speeds, mirror images, synthetic pairs, drawn as for
-TEMOS itself) are computed once and kept in ``--out``. Every step draws latents from them. The loss is the squared error
-of the clean latent times min(1 + SNR, a cap): that of velocity prediction, which counts all time steps alike, except
-where so little noise is left that only details are to be learnt.
+the captions for hours already. The posteriors of many views of the clips (crops, speeds, mirror images, synthetic
+pairs, drawn as for TEMOS itself) are computed once and kept in ``--out``. Every step draws latents from them. The loss
+is the squared error of the clean latent times min(1 + SNR, a cap): that of velocity prediction, which counts all time
+steps alike, except where so little noise is left that only details are to be learnt.
 """
 
 from __future__ import annotations

@@ -1,0 +1,88 @@
+"""Texts to motions with the torch modules, for `motionrt bench --against torch`.
+
+The same road with torch modules in the place of the sessions; with and without the text in one batch, as in training.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from motionrt.bench.makes import generate_calls
+from motionrt.bench.timing import Call
+from motionrt.models.temos import LatentDistribution
+from motionrt.models.text import SentenceFeatures
+from motionrt.synthesis.generating import Generator
+from motionrt_export.examples import Array
+from motionrt_export.references import denoiser_reference
+from motionrt_export.specs import LATENT_DENOISER
+from motionrt_export.torch_moves import numpy, released, tensor
+from motionrt_training.networks.egocentric import WIDTH
+from motionrt_training.networks.latent_denoiser import LatentDenoiser
+from motionrt_training.networks.temos import Temos
+
+Encode = Callable[[str], tuple[Tensor, Tensor]]  # text -> token features (1, T, 384), mask (1, T)
+
+
+def make_cases(encode: Encode, folder: Path) -> dict[str, Call]:
+    """A motion of a text with every sampler; ``folder`` holds the released networks."""
+    return generate_calls(TorchGenerator(encode, folder))
+
+
+class TorchGenerator(Generator):
+    """The generator of the runtime, moved by torch."""
+
+    def __init__(self, encode: Encode, folder: Path) -> None:
+        self.sentences: Any = TorchSentences(encode)
+        self.temos: Any = TorchTemos(folder)
+        self.denoiser: Any = torch_denoiser(folder)
+        self._prepared = True
+
+
+class TorchSentences:
+    """The sentence encoder."""
+
+    def __init__(self, encode: Encode) -> None:
+        self._encode = encode
+
+    @torch.inference_mode()
+    def encode(self, text: str) -> SentenceFeatures:
+        """Features of the tokens; nobody reads the sentence embedding here."""
+        features, mask = self._encode(text)
+        return SentenceFeatures(numpy(features), mask.numpy(), np.zeros(features.shape[2], np.float32))
+
+
+class TorchTemos:
+    """Text encoder and decoder."""
+
+    def __init__(self, folder: Path) -> None:
+        self._model = released(Temos, folder)
+        if not self._model.frame_mean.any():  # fresh weights: a person who stands, instead of rotations of length 0
+            self._model.frame_mean[4:] = torch.tensor([1.0, 0.0, 0.0, 0.0, 1.0, 0.0]).repeat((WIDTH - 4) // 6)
+
+    @torch.inference_mode()
+    def encode_text(self, text: SentenceFeatures) -> LatentDistribution:
+        """As `motionrt.models.temos.TemosModel.encode_text`."""
+        found = self._model.encode_text(tensor(text.token_features), tensor(text.attention_mask))
+        return LatentDistribution(numpy(found.mu), numpy(found.logvar))
+
+    @torch.inference_mode()
+    def decode(self, latent: Array, mask: Array) -> Array:
+        """As `motionrt.models.temos.TemosModel.decode`."""
+        return numpy(self._model.decode(tensor(latent), tensor(mask)))
+
+
+def torch_denoiser(folder: Path) -> Callable[..., tuple[Array, Array]]:
+    """As `motionrt.models.latent_denoiser.LatentDenoiser`."""
+    guided = denoiser_reference(released(LatentDenoiser, folder))
+
+    def denoise(*given: Array) -> tuple[Array, Array]:
+        found = guided(dict(zip((each.name for each in LATENT_DENOISER.inputs), given, strict=True)))
+        return found["clean"], found["latent_out"]
+
+    return denoise

@@ -1,0 +1,48 @@
+"""The benchmark of making motion: what it calls, and what it leaves out."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from tiny_models import TINY, TINY_GENERATORS
+
+from motionrt import Motion, Runtime
+from motionrt.bench import worker
+from motionrt.bench.makes import BODY_PARTS, COMPOSE, FRAMES, compose_call, generate_calls, generate_case
+from motionrt.bench.roads import ROADS, Setting
+from motionrt.bench.workload import TEXTS, Workload
+
+CASES = [generate_case("diffusion"), generate_case("vae")]
+
+
+@pytest.fixture(scope="module")
+def setting() -> Setting:
+    return Setting(str(TINY_GENERATORS), 1, Workload.standard())
+
+
+def test_texts_become_the_motions_that_the_runtime_makes(setting: Setting) -> None:
+    runtime = Runtime(TINY_GENERATORS, threads=1)
+    for sampler, call in zip(("diffusion", "vae"), generate_calls(setting.runtime.generator).values(), strict=True):
+        for text in (*TEXTS, TEXTS[0]):
+            made, expected = call(), runtime.generate(text, FRAMES / 30, seed=0, sampler=sampler)
+            assert isinstance(made, Motion)
+            assert made.frames == FRAMES
+            np.testing.assert_array_equal(made.rotations, expected.rotations)
+
+
+def test_a_composition_is_as_long_as_its_layers(setting: Setting) -> None:
+    made = compose_call(setting.runtime)()
+    assert isinstance(made, Motion)
+    assert made.frames == FRAMES
+
+
+def test_every_road_has_its_cases(setting: Setting) -> None:
+    cases = [list(ROADS[name].cases(setting)) for name in ("generate", "compose", "parts")]
+    assert cases == [CASES, [COMPOSE], [BODY_PARTS]]
+    assert not setting.missing(ROADS["generate"].models)
+
+
+def test_without_models_motions_are_composed_all_the_same() -> None:
+    found = worker.measure(str(TINY), 1, None, rounds=1, calls=1, only=["generate", "compose", "parts"])
+    assert [case["case"] for case in found["cases"]] == [COMPOSE, BODY_PARTS]
+    assert found["left_out"]["generate"].startswith("no model temos_text, temos_decoder")
