@@ -140,7 +140,7 @@ def _first_token(layer: Any, x: Tensor, bias: Tensor) -> Tensor:
 def draw_latents(
     model: LatentDenoiser, tokens: Tensor, mask: Tensor, noise: Tensor, steps: int = 10, guidance: float = 2.5
 ) -> Tensor:
-    """Raw TEMOS latents (B, 256) of texts (B, T, text_dim) with mask (B, T), by DDIM from standard normal noise (B, 256)."""
+    """Raw TEMOS latents (B, 256) of texts (B, T, text_dim) with mask (B, T), by DDIM from normal noise (B, 256)."""
     strength = torch.full((len(noise),), guidance, device=noise.device)
 
     def denoise(latent: FloatArray, timestep: npt.NDArray[np.int64]) -> tuple[FloatArray, FloatArray]:
