@@ -55,6 +55,10 @@ class ChecksumError(MotionRTError, ValueError):
     """A file's sha256 is not the one expected; the message gives file, expected and found."""
 
 
+class LabellingError(MotionRTError, RuntimeError):
+    """A language model or labeller fails, or its answer names no body part; the message quotes what it said."""
+
+
 class GalleryError(MotionRTError, ValueError):
     """A gallery cannot be used as it is: damaged, of another version, or made by another model."""
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, overload
 
@@ -137,8 +137,8 @@ class Making:
         if isinstance(text, str):
             found = self.generator.generate(text, how)
             return found[0] if n is None else found
-        if not text:
-            raise InvalidInputError("give at least one text")
+        if not isinstance(text, Iterable) or not text:
+            raise InvalidInputError(f"give at least one text, not {text!r}")
         many = [self.generator.generate(one, how) for one in text]
         return [motions[0] for motions in many] if n is None else many
 

@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 from tiny_models import TINY, TINY_GENERATORS
 
 from motionrt import PARTS, Layer, Motion, Runtime, load_motion
-from motionrt.errors import InvalidInputError, ModelNotFoundError, MotionFileNotFoundError
+from motionrt.errors import FormatError, InvalidInputError, ModelNotFoundError, MotionFileNotFoundError
 from motionrt.motion.body_parts import PART_JOINTS
 
 WALK, WAVE = "a person walks in a circle", "wave the right hand"
@@ -81,7 +81,7 @@ def test_the_sentence_encoder_is_opened_once_for_searching_and_generating(runtim
         ({"seconds": 10_000}, "seconds must be a number from 0.5 to 10, not 10000"),
         ({"seconds": float("nan")}, "seconds must be a number from 0.5 to 10, not nan"),
         ({"n": 0}, "n must be a whole number from 1, not 0"),
-        ({"temperature": -1}, "temperature must be a number from 0, not -1"),
+        ({"temperature": -1}, "temperature must be a number from 0 to 10, not -1"),
         ({"sampler": "gan"}, "unknown sampler 'gan'"),
         ({"seed": -3}, "seed must be a whole number from 0"),
     ],
@@ -237,3 +237,30 @@ def test_body_parts_are_names_of_parts(runtime: Runtime) -> None:
     assert runtime.body_parts("nod", labeller=label) == {"torso"}
     with pytest.raises(InvalidInputError):
         runtime.body_parts(" ")
+
+
+@pytest.mark.parametrize("given", [None, 5, iter([WALK, WAVE])])
+def test_what_is_no_list_is_refused(runtime: Runtime, given: Any) -> None:
+    with pytest.raises(InvalidInputError, match="needs a list"):
+        runtime.compose(given)
+
+
+@pytest.mark.parametrize("wrong", [{"parts": 5}, {"parts": {0: "torso", 1: None}}, {"masks": 5}])
+def test_parts_that_are_no_list_are_refused(runtime: Runtime, wrong: dict[str, Any]) -> None:
+    with pytest.raises(InvalidInputError, match="as a list with one entry for each"):
+        runtime.compose([standing(9), standing(9)], **wrong)
+
+
+def test_a_number_is_no_text(runtime: Runtime) -> None:
+    with pytest.raises(InvalidInputError, match="at least one text"):
+        runtime.generate(5)  # type: ignore[call-overload]
+
+
+def test_a_folder_named_by_its_path_is_no_text(runtime: Runtime, tmp_path: Path) -> None:
+    with pytest.raises(FormatError, match="is a folder"):
+        runtime.compose([str(tmp_path), standing(9)], ["torso", None])
+
+
+def test_marks_alone_are_no_text_for_a_joint_sentence(runtime: Runtime) -> None:
+    with pytest.raises(InvalidInputError, match="text is empty"):
+        runtime.compose(["...", WAVE], joint=True)

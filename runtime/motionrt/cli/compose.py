@@ -55,7 +55,9 @@ def run(arguments: argparse.Namespace) -> int:
     from motionrt.synthesis.layering import is_text
 
     texts = any(is_text(given) for given in arguments.given)
-    options: dict[str, Any] = {"seconds": arguments.seconds, **(chance(arguments) if texts else {})}
+    options: dict[str, Any] = {"seconds": arguments.seconds, **chance(arguments)}
+    if not texts and arguments.seed is None:  # there is no chance in files
+        options["seed"] = None
     opened = runtime(arguments)
     motion, rows = _joint(opened, arguments, options) if arguments.joint else _layered(opened, arguments, options)
     path = motion.save(arguments.output)

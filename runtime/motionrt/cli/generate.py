@@ -36,10 +36,11 @@ def run(arguments: argparse.Namespace) -> int:
     for name in ("seconds", "guidance", "steps"):  # what is not given has its default where it is used
         if getattr(arguments, name) is not None:
             options[name] = getattr(arguments, name)
+    paths = names(arguments)
     motions = runtime(arguments).generate(
         arguments.text, n=arguments.n, foot_lock=not arguments.no_foot_lock, **options
     )
-    written = [(motion, motion.save(path)) for motion, path in zip(motions, names(arguments), strict=True)]
+    written = [(motion, motion.save(path)) for motion, path in zip(motions, paths, strict=True)]
     tell_seed(arguments, options["seed"])
     if arguments.json:
         known = {"text": arguments.text, "seed": options["seed"], "sampler": options["sampler"]}
@@ -53,7 +54,11 @@ def run(arguments: argparse.Namespace) -> int:
 
 def names(arguments: argparse.Namespace) -> list[Path]:
     """The file, or numbered ones for more than one motion."""
+    from motionrt.errors import InvalidInputError
+
     out: Path = arguments.output
     if arguments.n == 1:
         return [out]
+    if not out.name:
+        raise InvalidInputError(f"-o {out} has no name to number; give a file, as in -o motion.bvh")
     return [out.with_name(f"{out.stem}-{number}{out.suffix}") for number in range(1, arguments.n + 1)]

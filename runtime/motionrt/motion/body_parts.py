@@ -33,10 +33,12 @@ def checked_parts(parts: Iterable[str]) -> frozenset[str]:
     """``parts`` as a set of names of :data:`PARTS`; "left_arm" and "Left Arm" are understood.
 
     Raises:
-        InvalidInputError: a name that is none of the six; the message lists them.
+        InvalidInputError: a name that is none of the six, or no names at all; the message lists them.
     """
     if isinstance(parts, str):
         parts = [parts]
+    if not isinstance(parts, Iterable):
+        raise InvalidInputError(f"body parts must be a list of names, not {parts!r}; they are: {', '.join(PARTS)}")
     found = {str(part).strip().lower().replace("_", " ") for part in parts}
     unknown = sorted(found - set(PARTS))
     if unknown:

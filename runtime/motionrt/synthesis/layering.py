@@ -11,8 +11,9 @@ from motionrt.errors import InvalidInputError
 from motionrt.formats.load import MOTION_SUFFIXES, WRITABLE_SUFFIXES, load_motion
 from motionrt.models.text import checked_text
 from motionrt.motion import Motion
+from motionrt.synthesis.composing.alignment import frames_of
 from motionrt.synthesis.composing.layers import Derive, Layer, given_parts
-from motionrt.synthesis.sampling import LONGEST_S, SECONDS, SHORTEST_S, checked_number
+from motionrt.synthesis.sampling import LONGEST_S, SECONDS, SHORTEST_S
 
 LayerLike = Layer | Motion | str | Path
 Names = str | Iterable[str] | None  # of parts, or of parts and joints
@@ -40,12 +41,13 @@ class Makers:
 def is_text(given: object) -> bool:
     """Whether ``given`` is a text to be generated: a ``str`` that is not named like a file of motion.
 
-    Nor is it the name, with a suffix, of any file that exists; a file without one would be no motion anyway.
+    Nor is it the name, with a suffix or a slash, of a file or folder that exists: a folder may be called "walk".
     """
     if not isinstance(given, str):
         return False
     suffix = Path(given).suffix.lower()
-    return suffix not in _SUFFIXES and not (suffix and _is_file(given))
+    named = bool(suffix) or Path(given).name != given
+    return suffix not in _SUFFIXES and not (named and _exists(given))
 
 
 def layers_of(
@@ -91,14 +93,14 @@ def joined(
         raise InvalidInputError(
             "joint=True gives the model one sentence: there is nothing that parts or masks could split"
         )
-    texts = [checked_text(one).strip(" .,;") for one in given if isinstance(one, str) and is_text(one)]
+    texts = [checked_text(one.strip(" .,;")) for one in given if isinstance(one, str) and is_text(one)]
     if len(texts) != len(given):
         raise InvalidInputError("joint=True needs texts only; files and motions are composed without it")
     return f"{', '.join(texts[:-1])} and {texts[-1]}"
 
 
 def _check(given: Sequence[LayerLike]) -> None:
-    if isinstance(given, str | bytes) or len(given) < 2:
+    if isinstance(given, str | bytes) or not isinstance(given, Sequence) or len(given) < 2:
         raise InvalidInputError(f"a composition needs a list of two motions, files or texts, or more, not {given!r}")
 
 
@@ -115,7 +117,7 @@ def _opened(given: LayerLike) -> Layer | Motion | str:
 def _each(names: Sequence[Names] | None, count: int, what: str) -> Sequence[Names]:
     if names is None:
         return [None] * count
-    if isinstance(names, str) or len(names) != count:
+    if isinstance(names, str) or not isinstance(names, Sequence) or len(names) != count:
         raise InvalidInputError(
             f"give {what} as a list with one entry for each of the {count} layers, None to leave open"
         )
@@ -126,7 +128,9 @@ def _text_seconds(opened: Sequence[Layer | Motion | str], seconds: float | None)
     """How much of each text to generate; longer compositions loop it."""
     motions = [one.motion if isinstance(one, Layer) else one for one in opened if not isinstance(one, str)]
     lengths = [motion.duration for motion in motions if motion.frames > 1]  # a single frame is a pose
-    wanted = checked_number(seconds, "seconds", 0) if seconds is not None else min(lengths, default=SECONDS)
+    if seconds is not None:
+        frames_of(seconds, 1.0)  # before anything is generated
+    wanted = min(lengths, default=SECONDS) if seconds is None else seconds
     return min(max(wanted, SHORTEST_S), LONGEST_S)
 
 
@@ -141,8 +145,8 @@ def _layer(given: Layer | Motion | str, parts: Names, mask: Names, makers: Maker
     return Layer(makers.make(given, seconds), needed, mask)
 
 
-def _is_file(text: str) -> bool:
+def _exists(text: str) -> bool:
     try:
-        return Path(text).is_file()
+        return Path(text).exists()
     except (OSError, ValueError):  # too long, or with letters that no file name has
         return False

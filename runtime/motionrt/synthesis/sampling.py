@@ -19,6 +19,7 @@ SHORTEST_S, LONGEST_S = 0.5, 10.0  # what the models were trained on
 GUIDANCE = 2.5  # weight of the text in diffusion
 STEPS = 10  # of diffusion
 MOST_STEPS = 1000
+MOST_TEMPERATURE, MOST_GUIDANCE = 10.0, 100.0  # far beyond all that still looks like a motion
 
 
 @dataclass(frozen=True)
@@ -29,9 +30,9 @@ class Sampling:
         seconds: length, 0.5 to 10.
         seed: 0 or more; None draws one, which is then found here.
         n: how many motions.
-        temperature: how far samples stray: 1 as trained, 0 not at all.
+        temperature: how far samples stray: 1 as trained, 0 not at all, at most 10.
         sampler: ``"diffusion"``, or ``"vae"``: straight from the text encoder's distribution.
-        guidance: how much more the text counts than in training, for diffusion; 1 is as trained.
+        guidance: how much more the text counts than in training, for diffusion: 0 to 100; 1 is as trained.
         steps: calls of the denoiser, 1 to 1000, for diffusion.
         foot_lock: let standing feet stand still.
 
@@ -52,8 +53,8 @@ class Sampling:
     def __post_init__(self) -> None:
         _set(self, "seconds", checked_number(self.seconds, "seconds", SHORTEST_S, LONGEST_S))
         _set(self, "frames", round(self.seconds * sinc135.FPS))
-        _set(self, "temperature", checked_number(self.temperature, "temperature", 0.0))
-        _set(self, "guidance", checked_number(self.guidance, "guidance", 0.0))
+        _set(self, "temperature", checked_number(self.temperature, "temperature", 0.0, MOST_TEMPERATURE))
+        _set(self, "guidance", checked_number(self.guidance, "guidance", 0.0, MOST_GUIDANCE))
         _set(self, "n", checked_whole(self.n, "n", 1))
         _set(self, "steps", checked_whole(self.steps, "steps", 1, MOST_STEPS))
         _set(self, "seed", fresh_seed() if self.seed is None else checked_whole(self.seed, "seed", 0))

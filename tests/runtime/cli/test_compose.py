@@ -195,3 +195,26 @@ def test_a_language_model_that_is_not_all_there_is_refused(
 def test_parts_of_nothing_are_refused(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["parts", "  "]) == 1
     assert "text is empty" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    "url",
+    ["http://[::1", "http://host:port/v1", "http://h:99999", "http://h/ü", "http://a b/", "http://a..b/", "http://:80"],
+)
+def test_an_address_that_is_none_is_one_line_and_exit_code_one(url: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["parts", "nod", "--endpoint", url, "--llm", "toy", "--json"]) == 1
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert err.startswith("motionrt: error: ")
+    assert err.count("\n") == 1
+
+
+@pytest.mark.parametrize("option", [("--sampler", "gan"), ("--temperature", "nan"), ("--seed", "-1")])
+def test_wrong_options_are_refused_for_files_too(
+    option: tuple[str, str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = str(walking(20).save(tmp_path / "walk.bvh"))
+    out = tmp_path / "out.bvh"
+    assert main(["compose", file, file, "-o", str(out), *option, *map(str, MODELS)]) == 1
+    assert option[0].strip("-") in capsys.readouterr().err
+    assert not out.exists()

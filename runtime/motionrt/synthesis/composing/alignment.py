@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from numbers import Real
 from typing import Literal, get_args
 
 import numpy as np
@@ -34,7 +35,7 @@ def aligned(motions: Sequence[Motion], carrier: int, align: Align, seconds: floa
     """
     if align not in get_args(Align):
         raise InvalidInputError(f"align must be one of {', '.join(get_args(Align))}, not {align!r}")
-    frames = None if seconds is None else _frames(seconds, motions[0].fps)
+    frames = None if seconds is None else frames_of(seconds, motions[0].fps)
     moving = [number for number, motion in enumerate(motions) if motion.frames > 1]
     if not moving:
         return [held(motion, frames or 1) for motion in motions]
@@ -45,9 +46,10 @@ def aligned(motions: Sequence[Motion], carrier: int, align: Align, seconds: floa
     return [found[n][:shortest] if n in found else held(motion, shortest) for n, motion in enumerate(motions)]
 
 
-def _frames(seconds: float, fps: float) -> int:
-    if not (np.isfinite(seconds) and 0 < seconds <= LONGEST_S):
-        raise InvalidInputError(f"seconds must be above 0 and at most {LONGEST_S:g}, not {seconds}")
+def frames_of(seconds: float, fps: float) -> int:
+    """``seconds`` in frames, at least one; InvalidInputError unless they are above 0 and at most 600."""
+    if isinstance(seconds, bool) or not isinstance(seconds, Real) or not 0 < seconds <= LONGEST_S:
+        raise InvalidInputError(f"seconds must be a number above 0 and at most {LONGEST_S:g}, not {seconds!r}")
     return max(1, round(seconds * fps))
 
 

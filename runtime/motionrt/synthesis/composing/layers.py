@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from numbers import Real
 
 from motionrt.errors import InvalidInputError
 from motionrt.motion.body_parts import PART_JOINTS, PARTS, checked_parts
@@ -28,7 +29,7 @@ class Layer:
         weight: how much its joints cover what lies below, from 0 to 1.
 
     Raises:
-        InvalidInputError: both ``parts`` and ``mask``, an empty mask, an unknown name, or such a weight.
+        InvalidInputError: no Motion, both ``parts`` and ``mask``, an empty mask, an unknown name, or such a weight.
     """
 
     motion: Motion
@@ -41,11 +42,15 @@ class Layer:
             raise InvalidInputError(
                 "give a layer parts (what its action needs) or a mask (the joints it moves), not both"
             )
-        if not 0 <= self.weight <= 1:
-            raise InvalidInputError(f"a layer's weight must be from 0 to 1, not {self.weight}")
+        if not isinstance(self.motion, Motion):
+            raise InvalidInputError(f"a layer needs a Motion, not {self.motion!r}; motionrt.load_motion reads files")
+        if not isinstance(self.weight, Real) or not 0 <= self.weight <= 1:
+            raise InvalidInputError(f"a layer's weight must be from 0 to 1, not {self.weight!r}")
         if self.parts is not None:
             object.__setattr__(self, "parts", checked_parts(self.parts))
         if self.mask is not None:
+            if not isinstance(self.mask, Iterable):
+                raise InvalidInputError(f"a mask is a list of names of parts or joints, not {self.mask!r}")
             names = (self.mask,) if isinstance(self.mask, str) else tuple(self.mask)
             mask_joints(names)
             object.__setattr__(self, "mask", names)
@@ -83,13 +88,14 @@ def checked_layers(layers: Sequence[Layer | Motion]) -> list[Layer]:
     Raises:
         InvalidInputError: fewer than two, something that is no motion, or another skeleton.
     """
-    found = [layer if isinstance(layer, Layer) else Layer(layer) for layer in layers]
-    if len(found) < 2:
-        raise InvalidInputError(f"a composition needs two motions or more, not {len(found)}")
-    for number, layer in enumerate(found):
-        _check_motion(layer.motion, number)
-    fps = found[0].motion.fps
-    return [Layer(layer.motion.resample(fps), layer.parts, layer.mask, layer.weight) for layer in found]
+    if not isinstance(layers, Sequence) or len(layers) < 2:
+        found = len(layers) if isinstance(layers, Sequence) else layers
+        raise InvalidInputError(f"a composition needs a list of two motions or more, not {found!r}")
+    for number, layer in enumerate(layers):
+        _check_motion(layer.motion if isinstance(layer, Layer) else layer, number)
+    checked = [layer if isinstance(layer, Layer) else Layer(layer) for layer in layers]
+    fps = checked[0].motion.fps
+    return [Layer(layer.motion.resample(fps), layer.parts, layer.mask, layer.weight) for layer in checked]
 
 
 def _check_motion(motion: object, number: int) -> None:

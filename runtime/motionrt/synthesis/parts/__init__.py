@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from motionrt.errors import LabellingError
 from motionrt.synthesis.parts.endpoint import Complete, Endpoint
-from motionrt.synthesis.parts.failures import LabellingError
 from motionrt.synthesis.parts.labelling import Labeller, body_parts
 from motionrt.synthesis.parts.prompting import PromptLabeller, parts_in_answer, prompt_for
 from motionrt.synthesis.parts.rules import Reason, RulesLabeller

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import re
 
-from motionrt.errors import InvalidInputError
+from motionrt.errors import InvalidInputError, LabellingError, MotionRTError
 from motionrt.motion.body_parts import ARMS, LEGS, PARTS
 from motionrt.synthesis.parts.endpoint import Complete, Endpoint
-from motionrt.synthesis.parts.failures import LabellingError
 
 ASKED = (*ARMS, *LEGS, "torso", "neck", "buttocks", "waist")  # the list that the model chooses from
 EXAMPLES = (
@@ -24,6 +23,7 @@ _ARM = "arms?|hands?|elbows?|wrists?|shoulders?|forearms?|fingers?|fists?|palms?
 _LEG = "legs?|foot|feet|knees?|ankles?|toes?|thighs?|cal(?:f|ves)|heels?|shins?"
 _SIDES = r"(?:\b(?P<sides>left and right|right and left|left/right|left|right|both|each)[\s_-]+(?:the\s+|of\s+)?)?"
 _NAMED = re.compile(rf"{_SIDES}\b(?:(?P<arm>{_ARM})|(?P<leg>{_LEG})|(?P<torso>{_TORSO})|(?P<all>{_GLOBAL}))\b")
+_READ = 10_000  # characters of an answer; whatever follows is talk
 _NOTHING = re.compile(r"\b(?:none|nothing|no (?:body )?parts?)\b")
 _DENIED = re.compile(r"\b(?:no|not|nor|without|except|excluding)\b(?:(?! but )[^.;\n])*")
 
@@ -62,7 +62,7 @@ def parts_in_answer(answer: str) -> frozenset[str]:
 
 def _answer_alone(answer: str) -> str:
     """Lower case, without marks, and of an answer that goes on with further actions only the first."""
-    plain = re.sub(r"[*`\"'()\[\]{}_]+", " ", answer.lower().strip())
+    plain = re.sub(r"[*`\"'()\[\]{}_]+", " ", answer.strip()[:_READ].lower())
     plain = re.sub(r"\A\s*(?:parts|answer)\s*:", " ", plain)
     return re.split(r"\n\s*action\s*:", plain, maxsplit=1)[0]
 
@@ -103,8 +103,16 @@ class PromptLabeller:
 
         Raises:
             InvalidInputError: empty text.
-            LabellingError: no answer, or one that names no part.
+            LabellingError: the model fails, gives no answer, or one that names no part.
         """
         if not isinstance(text, str) or not text.strip():
             raise InvalidInputError("the action text is empty; say what somebody does, as in 'wave the right hand'")
-        return parts_in_answer(self._complete(prompt_for(text)))
+        return parts_in_answer(self._answer(prompt_for(text)))
+
+    def _answer(self, prompt: str) -> str:
+        try:
+            return self._complete(prompt)
+        except MotionRTError:
+            raise
+        except Exception as error:  # it is somebody else's code
+            raise LabellingError(f"the language model failed: {type(error).__name__}: {error}") from error

@@ -6,6 +6,7 @@ from collections.abc import Iterable
 
 SHORTEST = 4  # letters; shorter words are left alone
 SHORTEST_BOLD = 5
+LONGEST = 30  # no word that is known has more
 
 
 class Spelling:
@@ -24,7 +25,7 @@ class Spelling:
 
     def mended(self, word: str, *, boldly: bool) -> str | None:
         """The known form that is one slip away from ``word``, or None."""
-        if len(word) < SHORTEST or not word.isalpha():
+        if not SHORTEST <= len(word) <= LONGEST or not word.isalpha():
             return None
         near = dict.fromkeys(form for rest in (word, *_rests(word)) for form in self._by_rest.get(rest, ()))
         near_first = [form for form in near if form[0] == word[0]]

@@ -62,7 +62,7 @@ def test_layers_that_do_not_say_what_they_move() -> None:
 
 @pytest.mark.parametrize("seconds", [0, -1, 10_000, float("nan"), float("inf")])
 def test_seconds_out_of_range(seconds: float) -> None:
-    with pytest.raises(InvalidInputError, match="seconds must be above 0 and at most 600"):
+    with pytest.raises(InvalidInputError, match="seconds must be a number above 0 and at most 600"):
         compose([MOTION, Layer(MOTION, "torso")], seconds=seconds)
 
 
@@ -114,3 +114,16 @@ def test_the_layers_stay_as_they_were() -> None:
     assert isinstance(base, Motion)
     assert np.array_equal(base.rotations, before[0])
     assert np.array_equal(arm.rotations, before[1])
+
+
+@pytest.mark.parametrize("wrong", [{"parts": 5}, {"mask": 5}, {"weight": "much"}, {"motion": "walk.bvh"}])
+def test_a_layer_of_the_wrong_kind(wrong: dict[str, Any]) -> None:
+    with pytest.raises(InvalidInputError, match=r"list of names|weight|needs a Motion"):
+        Layer(**{"motion": MOTION, **wrong})
+
+
+def test_no_list_and_no_number() -> None:
+    with pytest.raises(InvalidInputError, match="two motions or more"):
+        compose(None)  # type: ignore[arg-type]
+    with pytest.raises(InvalidInputError, match="seconds must be a number above 0"):
+        compose([MOTION, Layer(MOTION, "torso")], seconds="long")  # type: ignore[arg-type]

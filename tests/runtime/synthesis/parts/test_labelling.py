@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from motionrt.errors import InvalidInputError
+from motionrt.errors import InvalidInputError, LabellingError
+from motionrt.motion.body_parts import PARTS
 from motionrt.synthesis.parts import body_parts
 
 
@@ -38,3 +39,19 @@ def test_empty_text_is_an_error_for_all(text: object, labeller: object) -> None:
 def test_an_unknown_labeller_is_an_error_that_lists_them() -> None:
     with pytest.raises(InvalidInputError, match="'rules' and 'llm'"):
         body_parts("walk", labeller="magic")
+
+
+def test_a_callable_that_fails_is_a_labelling_error_with_its_cause() -> None:
+    with pytest.raises(LabellingError, match="ZeroDivisionError") as caught:
+        body_parts("walk", labeller=lambda text: frozenset({str(1 // 0)}))
+    assert isinstance(caught.value.__cause__, ZeroDivisionError)
+
+
+def test_a_language_model_that_nobody_asks_is_an_error() -> None:
+    with pytest.raises(InvalidInputError, match="labeller='llm'"):
+        body_parts("walk", complete=lambda prompt: "torso")
+
+
+@pytest.mark.parametrize("text", ["a" * 1_000_000, "wave " * 100_000, "!!!", "\x00", "挥手 👋"])
+def test_any_text_is_read(text: str) -> None:
+    assert body_parts(text) <= set(PARTS)

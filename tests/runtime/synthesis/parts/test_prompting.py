@@ -5,7 +5,8 @@ from __future__ import annotations
 import json
 import threading
 from collections.abc import Iterator
-from http.server import BaseHTTPRequestHandler, HTTPServer
+from contextlib import suppress
+from http.server import BaseHTTPRequestHandler, HTTPServer, ThreadingHTTPServer
 
 import pytest
 from hypothesis import given
@@ -130,6 +131,8 @@ def test_an_endpoint_is_asked_as_a_chat_completion(server: HTTPServer) -> None:
         ((401, b"no such key"), "401.*no such key"),
         ((200, b"<html>"), "did not answer as a chat completion"),
         ((200, b'{"choices": []}'), "did not answer as a chat completion"),
+        ((200, b"[" * 100_000), "did not answer as a chat completion"),
+        ((200, b" " * 3_000_000), "longer than"),
         ((200, _completion(None)), "without text"),
         ((200, _completion("as you wish")), "as you wish"),
     ],
@@ -156,6 +159,8 @@ def test_nobody_listening_is_a_labelling_error(server: HTTPServer) -> None:
         ("localhost:8000", "m", 1.0),
         ("http://host/v1", "", 1.0),
         ("http://h", "m", 0.0),
+        ("http://h", "m", float("inf")),
+        ("http://h", "m", float("nan")),
     ],
 )
 def test_an_endpoint_says_what_is_wrong_with_it(url: str, model: str, timeout: float) -> None:
@@ -165,3 +170,47 @@ def test_an_endpoint_says_what_is_wrong_with_it(url: str, model: str, timeout: f
 
 def test_the_key_is_not_shown() -> None:
     assert "secret" not in repr(Endpoint("http://host/v1", "m", "secret"))
+
+
+@pytest.mark.parametrize("key", ["two\nlines", "snow ☃", "a b"])
+def test_a_key_that_no_header_can_hold_is_refused_and_not_shown(key: str) -> None:
+    with pytest.raises(InvalidInputError, match="API key") as caught:
+        Endpoint("http://host/v1", "m", key)
+    assert key not in str(caught.value)
+
+
+def test_a_model_that_fails_is_a_labelling_error_with_its_cause() -> None:
+    def ask(prompt: str) -> str:
+        raise OSError("GPU on fire")
+
+    with pytest.raises(LabellingError, match="OSError: GPU on fire") as caught:
+        PromptLabeller(ask)("march")
+    assert isinstance(caught.value.__cause__, OSError)
+
+
+def test_only_the_beginning_of_an_endless_answer_is_read() -> None:
+    assert parts_in_answer("torso. " + "blah " * 200_000 + "left arm") == {"torso"}
+
+
+class _Dripping(BaseHTTPRequestHandler):
+    """A byte now and then, for ever: no single wait is long."""
+
+    def do_POST(self) -> None:
+        self.send_response(self.server.status)  # type: ignore[attr-defined]
+        self.end_headers()
+        with suppress(OSError):
+            while not self.server.done.wait(0.02):  # type: ignore[attr-defined]
+                self.wfile.write(b" ")
+
+    def log_message(self, *args: object) -> None:
+        pass
+
+
+def test_an_answer_that_never_ends_is_given_up() -> None:
+    with ThreadingHTTPServer(("127.0.0.1", 0), _Dripping) as server:
+        server.status, server.done = 200, threading.Event()  # type: ignore[attr-defined]
+        threading.Thread(target=server.serve_forever, args=(0.01,), daemon=True).start()
+        with pytest.raises(LabellingError, match="did not end in time"):
+            Endpoint(f"http://127.0.0.1:{server.server_address[1]}/v1", "m", timeout_s=0.3)("march")
+        server.done.set()  # type: ignore[attr-defined]
+        server.shutdown()

@@ -35,11 +35,20 @@ def swinging(joint: str, axis: int = 0, amplitude: float = 0.6) -> Motion:
         ("left_hip", 0, "left leg"),
         ("right_knee", 0, "right leg"),
         ("spine1", 0, "torso"),
-        ("neck", 0, "torso"),
     ],
 )
 def test_one_swinging_joint_is_one_part(joint: str, axis: int, expected: str) -> None:
     assert velocity_parts(swinging(joint, axis)) == {expected}
+
+
+def test_a_nod_is_slower_than_the_sway_of_a_walk_and_takes_a_threshold_of_its_own() -> None:
+    nod = swinging("neck")
+    assert velocity_parts(nod) == frozenset()
+    assert velocity_parts(nod, torso=0.2) == {"torso"}
+
+
+def test_a_trunk_that_sways_with_the_steps_is_not_the_torso() -> None:
+    assert "torso" not in velocity_parts(swinging("spine1", 2, amplitude=0.1))
 
 
 def test_standing_still_is_no_part_and_one_frame_neither() -> None:
