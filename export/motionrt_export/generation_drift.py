@@ -10,6 +10,7 @@ import numpy.typing as npt
 from motionrt.metrics.locomotion import foot_skate, keypoint_error
 from motionrt.motion.features import sinc135
 from motionrt.synthesis.diffusion import ddim
+from motionrt.synthesis.sampling import GUIDANCE, STEPS
 from motionrt_export.drift import LEAST_CM, ratio
 from motionrt_export.examples import Array, Feeds, Motions
 from motionrt_export.measures import Figures
@@ -17,7 +18,6 @@ from motionrt_export.references import Reference
 
 FRAMES = 120
 TOKENS = 14  # of a text
-STEPS, GUIDANCE = 10, 2.5  # of the drawing
 
 Floats = npt.NDArray[np.float64]
 

@@ -18,6 +18,7 @@ from torch import Tensor, nn
 
 from motionrt.motion.skeleton import FloatArray
 from motionrt.synthesis.diffusion import ddim, schedule
+from motionrt.synthesis.sampling import GUIDANCE, STEPS
 from motionrt_training.networks.transformer import Dropout, EncoderLayer, key_bias, sinusoidal_positions
 
 WAVES = 16  # sines and cosines of the time's angle
@@ -138,7 +139,7 @@ def _first_token(layer: Any, x: Tensor, bias: Tensor) -> Tensor:
 
 @torch.no_grad()
 def draw_latents(
-    model: LatentDenoiser, tokens: Tensor, mask: Tensor, noise: Tensor, steps: int = 10, guidance: float = 2.5
+    model: LatentDenoiser, tokens: Tensor, mask: Tensor, noise: Tensor, steps: int = STEPS, guidance: float = GUIDANCE
 ) -> Tensor:
     """Raw TEMOS latents (B, 256) of texts (B, T, text_dim) with mask (B, T), by DDIM from normal noise (B, 256)."""
     strength = torch.full((len(noise),), guidance, device=noise.device)

@@ -26,6 +26,7 @@ import torch
 from numpy.typing import NDArray
 from torch import Tensor, nn
 
+from motionrt.synthesis.sampling import GUIDANCE, STEPS
 from motionrt_training.backbones import open_backbone
 from motionrt_training.batches import padded
 from motionrt_training.checkpoint import load_any
@@ -60,8 +61,8 @@ class DenoiserSettings:
     token_dropout: float = option(0.0, "part of the text tokens hidden in training")
     text_noise: float = option(0.1, "noise on the text's latent in training")
     snr_cap: float = option(5.0, "largest weight of a time step, as min(1 + SNR, cap)")
-    draw_steps: int = option(10, "DDIM steps of the validation")
-    guidance: float = option(2.5, "guidance of the validation")
+    draw_steps: int = option(STEPS, "DDIM steps of the validation")
+    guidance: float = option(GUIDANCE, "guidance of the validation")
 
 
 class LatentDiffusionTask:
