@@ -30,12 +30,12 @@ from matplotlib.collections import LineCollection
 Floats = npt.NDArray[np.float64]
 
 PROMPTS = (
-    "walk forward and turn left",
-    "wave the right hand",
     "jump forward with both feet",
-    "do jumping jacks",
-    "walk forward while raising both arms",
-    "kick with the right leg",
+    "climbing a ladder hand over hand",
+    "several deep squats",
+    "drinking from a bottle",
+    "a person sits down on a stool",
+    "wave the right hand while walking",
 )
 COLUMNS, POSES, SPACING = 2, 8, 0.92  # metres on the paper between poses
 EYE = np.radians(-40)  # from the front of the first pose to its right

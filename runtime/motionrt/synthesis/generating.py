@@ -18,6 +18,7 @@ from motionrt.motion.features import sinc135
 from motionrt.motion.foot_lock import lock_feet
 from motionrt.synthesis.diffusion import ddim
 from motionrt.synthesis.sampling import Sampling
+from motionrt.synthesis.smoothing import smoothed
 
 PADDING = 20  # frames: the decoder sees multiples of them only, so that 15 lengths are all it ever has memory for
 
@@ -64,10 +65,10 @@ class Generator:
         return np.concatenate([ddim(denoise, row[None], sampling.steps) for row in noise])
 
     def decode(self, latents: FloatArray, frames: int) -> list[Motion]:
-        """The motions of latents ``(n, 256)`` as the decoder gives them; rotations are made proper ones."""
+        """The motions of latents ``(n, 256)`` as the decoder gives them, smoothed; rotations are made proper ones."""
         mask = np.zeros((1, -(-frames // PADDING) * PADDING), bool)
         mask[:, :frames] = True
-        return [sinc135.decode(self.temos.decode(row[None], mask)[0, :frames]) for row in latents]
+        return [sinc135.decode(smoothed(self.temos.decode(row[None], mask)[0, :frames])) for row in latents]
 
     def _denoise(
         self, text: FloatArray, guidance: float, latent: FloatArray, timestep: npt.NDArray[np.int64]
