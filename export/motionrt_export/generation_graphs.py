@@ -10,7 +10,7 @@ from motionrt_export.layers import Encoder, Residual, constant, folded, linear
 from motionrt_training.networks.actor import patched
 from motionrt_training.networks.egocentric import to_egocentric
 from motionrt_training.networks.latent_denoiser import WAVES, LatentDenoiser
-from motionrt_training.networks.temos import Temos, TemosDecoder, bounded_logvar
+from motionrt_training.networks.temos import Temos, bounded_logvar
 from motionrt_training.networks.transformer import MASKED, key_bias, sinusoidal_positions
 
 PLACED = (1, 4, 7, 2, 6, 9, 0, 3, 5, 8, *range(10, 136))
@@ -76,8 +76,6 @@ class TemosDecoderGraph(nn.Module):
     def __init__(self, model: Temos) -> None:
         super().__init__()
         source = model.motion_decoder
-        if not isinstance(source, TemosDecoder):
-            raise TypeError("the step decoder is exported as a loop: see step_graphs")
         self.d, self.patch, self.most = source.d, source.patch, source.most
         cross, queries = folded([layer.cross for layer in source.layers]), source.spread
         places = sinusoidal_positions(self.most, self.d, queries.bias).flatten()

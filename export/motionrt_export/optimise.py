@@ -51,7 +51,7 @@ DECODER = Quantisation(("/project/", "/hear/"))
 MOTION = Quantisation(exact=("/aim/", "/answer/"))
 TEMOS_TEXT = Quantisation(("/project/",), exact=("/text_mu/",))
 TEMOS_MOTION = Quantisation(("/project/", "/gather/"))
-TEMOS_DECODER = Quantisation(("/hear/", "/shape/", "/enter/"), exact=("/project/", "/clock/"))
+TEMOS_DECODER = Quantisation(("/hear/",), exact=("/project/",))
 DENOISER = Quantisation(("/read_text/",), exact=("/read_latent/", "/out/"))
 
 CHOICES: dict[str, Quantisation | None] = {

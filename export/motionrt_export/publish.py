@@ -19,6 +19,7 @@ from motionrt_export.measures import Figures, rounded
 from motionrt_export.optimise import CHOICES, FP32, QUANTISED, quantise, shipped, variants
 from motionrt_export.sources import Source, Sources
 from motionrt_export.tolerances import FLOAT32, INT8
+from motionrt_export.trace import trace
 from motionrt_training.networks.minilm import MAX_TOKENS
 
 SENTENCE_ENCODER = "sentence_encoder"
@@ -73,11 +74,10 @@ def publish(sources: Sources, layout: Layout, check: Check, quality: Mapping[str
 
 def _export(source: Source, layout: Layout) -> None:
     name = source.spec.name
-    exact = source.traced()
-    _save(source.finished(exact), layout.file(name, FP32))
+    exact = trace(source.module, source.spec)
+    _save(exact, layout.file(name, FP32))
     if choice := CHOICES[name]:
-        small = quantise(exact, choice, source.calibration())
-        _save(source.finished(small), layout.file(name, QUANTISED))
+        _save(quantise(exact, choice, source.calibration()), layout.file(name, QUANTISED))
 
 
 def _save(model: onnx.ModelProto, path: Path) -> None:

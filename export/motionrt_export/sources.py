@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Any, Generic
 
 import numpy as np
-import onnx
 from torch import nn
 
 from motionrt_export import references, specs
@@ -23,8 +22,6 @@ from motionrt_export.motion_graphs import TransNetGraph, WalkNetGraph
 from motionrt_export.noising import Noised
 from motionrt_export.references import Reference
 from motionrt_export.specs import GraphSpec
-from motionrt_export.step_graphs import STEP, Steps
-from motionrt_export.trace import trace
 from motionrt_export.transitions import Transitions
 from motionrt_export.validate import Trial
 from motionrt_export.walks import Walks
@@ -55,8 +52,7 @@ class Release(Generic[Network]):
 class Source:
     """One graph: the module to export, the reference it must equal, inputs to try, units of the errors.
 
-    `release` is where its weights come from, `calibration` gives inputs for quantising, `trial` is a longer use. With
-    `steps` the module is one step, and the graph is a loop of them.
+    `release` is where its weights come from, `calibration` gives inputs for quantising, `trial` is a longer use.
     """
 
     spec: GraphSpec
@@ -67,15 +63,6 @@ class Source:
     release: Release[Any] | None = None
     calibration: Callable[[], Iterable[Feeds]] = tuple
     trial: Trial | None = None
-    steps: Steps | None = None
-
-    def traced(self) -> onnx.ModelProto:
-        """The graph in float32, or the step that it repeats: what is quantised."""
-        return trace(self.module, STEP if self.steps else self.spec)
-
-    def finished(self, traced: onnx.ModelProto) -> onnx.ModelProto:
-        """The graph of the file."""
-        return self.steps.looped(traced) if self.steps else traced
 
 
 class Sources:
@@ -212,13 +199,9 @@ class Sources:
 
     def _temos_decoder(self) -> Source:
         model, examples = self.temos.model, self._generated.decoder
-        reference, trial = (
-            references.temos_decoder_reference(model),
-            DecoderDrift(self._generated, count=self.generations),
-        )
-        steps = Steps.of(model)
-        module = steps.step if steps else TemosDecoderGraph(model)
-        return Source(specs.TEMOS_DECODER, module, reference, examples, release=self.temos, trial=trial, steps=steps)
+        module, reference = TemosDecoderGraph(model), references.temos_decoder_reference(model)
+        trial = DecoderDrift(self._generated, count=self.generations)
+        return Source(specs.TEMOS_DECODER, module, reference, examples, release=self.temos, trial=trial)
 
     def _latent_denoiser(self) -> Source:
         model, spec = self.latent_denoiser.model, specs.LATENT_DENOISER

@@ -116,7 +116,7 @@ class Making:
 
         Args:
             text: what somebody does, as in "wave the right hand"; a list of texts gives a list of answers.
-            seconds: 0.5 to 10.
+            seconds: 0.5 to 8.
             n: how many motions of each text, as a list; None is one, not in a list.
             seed: of the chance in it, from 0; None is another one every time.
             temperature: how far samples stray from what is most likely: 1 as trained, 0 not at all, so that all are

@@ -72,10 +72,10 @@ def tiny_pose_prior() -> PosePrior:
     return model.eval().requires_grad_(False)
 
 
-def tiny_temos(patch: int = 8, decoder: str = "parallel") -> Temos:
+def tiny_temos(patch: int = 8) -> Temos:
     """A TEMOS of two thin layers whose people stand about a T-pose and stroll."""
     torch.manual_seed(8)
-    model = Temos(layers=2, ff=64, patch=patch, decoder=decoder, decoder_layers=2, dropout=0.0)
+    model = Temos(layers=2, ff=64, patch=patch, dropout=0.0)
     for name, value in model.named_parameters():
         if not value.any() and "norm" not in name:  # branches that begin at zero
             value.data.normal_(0.0, 0.05)

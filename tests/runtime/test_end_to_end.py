@@ -137,7 +137,7 @@ def test_the_benchmark_runs_in_processes_of_its_own() -> None:
     found = motionrt("bench", "--quick", "--threads", 1, "--models", MODELS)
     assert [run["threads"] for run in found["runs"]] == [1]
     run = found["runs"][0]
-    assert len(run["cases"]) == 6
+    assert len(run["cases"]) == 8
     assert all(0 < case["p50_ms"] <= case["p95_ms"] for case in run["cases"])
     assert run["cold_start"]["seconds"] > 0
     assert {"processor", "cores", "system"} <= set(found["machine"])

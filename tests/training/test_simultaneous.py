@@ -12,7 +12,7 @@ from motionrt.synthesis.composing import combination
 from motionrt_training.corpora.actions import Action, ActionClip
 from motionrt_training.networks.egocentric import from_egocentric, mirrored, to_egocentric
 from motionrt_training.simultaneous import combined, gerund, random_combination, sentence
-from motionrt_training.temos_data import ActionData, Examples, crop
+from motionrt_training.temos_data import ActionData, Examples, crop, prolonged
 
 PLAIN = ActionData(captions=0.0, synthetic=0.0, mirror=False, tempo=0.0)
 
@@ -133,3 +133,21 @@ def test_a_faster_crop_moves_more_per_frame() -> None:
     assert len(found) == 40
     assert speed.std() < 1e-3
     assert 1.0 / 1.5 - 1e-3 <= float(speed[0]) * 30.0 <= 1.5 + 1e-3
+
+
+def test_a_short_walk_is_repeated_without_a_jump() -> None:
+    walk = frames(walking(50, 30.0, speed=1.0))  # a stride takes 30 frames
+    found = prolonged(walk, 140)
+    assert len(found) == 140
+    assert torch.equal(found[:49], walk[:49])
+    assert found[:, 1:3].norm(dim=1).numpy() * 30.0 == pytest.approx(1.0, abs=1e-3)
+    change = found[1:, 3:] - found[:-1, 3:]
+    assert float(change.abs().max()) < 1.2 * float((walk[1:, 3:] - walk[:-1, 3:]).abs().max())
+
+
+def test_what_never_comes_back_to_an_earlier_pose_ends_where_it_ends() -> None:
+    fall = frames(walking(60, 30.0))
+    fall[:, 3] = torch.linspace(12.0, 0.0, 60)  # always lower: never nearer than 2 m to where it was
+    assert torch.equal(prolonged(fall, 140), fall)
+    long = frames(walking(160, 30.0))
+    assert torch.equal(prolonged(long, 140), long)

@@ -13,11 +13,10 @@ from motions import random_motion, walking
 from motionrt.formats.motion_pack import MotionPack
 from motionrt.motion import transforms
 from motionrt.motion.features import sinc135
-from motionrt_training.continuing import faded, windows
 from motionrt_training.corpora.actions import Action, ActionClip, read_actions
 from motionrt_training.corpora.recordings import Recordings
 from motionrt_training.networks.egocentric import to_egocentric
-from motionrt_training.networks.temos import HISTORY, STATE, StepDecoder, Temos
+from motionrt_training.networks.temos import Temos
 from motionrt_training.networks.transformer import ResidualLayer, key_bias
 from motionrt_training.temos_data import ActionData, SpokenTexts
 from motionrt_training.temos_task import TemosSettings, TemosTask, ground_velocity
@@ -98,7 +97,7 @@ class Letters:
         return tokens, tokens.mean(0)
 
 
-def task(seed: int = 1, decoder: str = "parallel") -> TemosTask:
+def task(seed: int = 1) -> TemosTask:
     actions = Action("walk", frozenset({"global"})), Action("wave", frozenset({"left arm"}))
     clips = [
         ActionClip(
@@ -108,7 +107,7 @@ def task(seed: int = 1, decoder: str = "parallel") -> TemosTask:
         for split in ("train", "val")
     ]
     data = ActionData(least_frames=40, most_frames=60)
-    settings = TemosSettings(**{**SMALL, "batch": 4, "decoder": decoder})  # type: ignore[arg-type]
+    settings = TemosSettings(**{**SMALL, "batch": 4})  # type: ignore[arg-type]
     return TemosTask(clips, SpokenTexts(Letters()), settings, data, seed)
 
 
@@ -118,10 +117,9 @@ def test_a_step_sees_the_same_batch_again() -> None:
     assert first["frames"].shape != other["frames"].shape or not torch.equal(first["frames"], other["frames"])
 
 
-@pytest.mark.parametrize("decoder", ["parallel", "steps"])
-def test_training_brings_the_loss_down(tmp_path: Path, decoder: str) -> None:
+def test_training_brings_the_loss_down(tmp_path: Path) -> None:
     schedule = Schedule(steps=90, lr=3e-3, warmup=1, validate_every=90, log_every=4, device="cpu", bf16=False)
-    measures = Trainer(task(decoder=decoder), schedule, tmp_path).run()
+    measures = Trainer(task(), schedule, tmp_path).run()
     rows = [json.loads(line) for line in (tmp_path / "log.jsonl").read_text(encoding="utf-8").splitlines()]
     losses = [row["loss"] for row in rows if "loss" in row]
     assert losses[-1] < 0.95 * losses[0]
@@ -138,59 +136,3 @@ def test_clips_are_cut_as_their_captions_say(tmp_path: Path) -> None:
     (clip,) = read_actions(Recordings(MotionPack.of([motion]), ("x",), ("train",)), path)
     assert clip.frames.shape == (45, 136)
     assert clip.actions == (Action("walk", frozenset({"left leg", "right leg", "global"})),)
-
-
-def stepwise(**changes: object) -> Temos:
-    torch.manual_seed(1)
-    model = Temos(**{**SMALL, "decoder": "steps", "decoder_layers": 2, **changes}).eval()  # type: ignore[arg-type]
-    for parameter in model.motion_decoder.parameters():
-        torch.nn.init.normal_(parameter, std=0.05)
-    return model
-
-
-def test_going_on_step_by_step_is_decoding_at_once() -> None:
-    net, latent = stepwise(), torch.randn(2, 32)
-    net.frame_std.uniform_(0.05, 0.1)
-    state, parts = torch.zeros(2, STATE), []
-    for _ in range(4):
-        motion, state = net.go_on(latent, state)
-        parts.append(motion)
-    expected = net.decode(latent, torch.ones(2, 30, dtype=torch.bool))
-    assert torch.allclose(torch.cat(parts, dim=1)[:, :30], expected, atol=1e-5)
-    assert state[:, HISTORY * 136].tolist() == [32.0, 32.0]
-
-
-def test_the_step_decoder_does_not_see_what_lies_before_the_start() -> None:
-    decoder, latent = stepwise().motion_decoder, torch.randn(1, 32)
-    assert isinstance(decoder, StepDecoder)
-    modulation, time = decoder.modulation(latent), torch.tensor([8.0])
-    history = torch.randn(1, HISTORY, 136)
-    other = history.clone()
-    other[:, :8] += 5.0
-    assert torch.equal(decoder.step(history, time, modulation), decoder.step(other, time, modulation))
-    assert not torch.equal(decoder.step(history, time + 8, modulation), decoder.step(other, time + 8, modulation))
-
-
-def test_an_untrained_step_decoder_stays_where_it_is() -> None:
-    decoder = StepDecoder(32, 2, 64, 0.0).eval()
-    history = torch.randn(1, HISTORY, 136)
-    found = decoder.step(history, torch.tensor([40.0]), decoder.modulation(torch.randn(1, 32)))
-    assert torch.equal(found[:, :, 3:], history[:, -1:, 3:].expand(-1, 8, -1))
-    assert (found[:, :, :3] == 0).all()
-
-
-def test_what_is_wanted_fades_to_the_truth() -> None:
-    wanted, error = torch.zeros(1, 8, 136), torch.full((1, 136), 0.8)
-    found = faded(wanted, error)
-    assert found[0, :, 50].tolist() == pytest.approx([0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1, 0.0])
-    assert (found[0, :, :3] == 0).all()
-
-
-def test_windows_hold_the_frames_around_their_start() -> None:
-    frames = torch.arange(2 * 40.0).reshape(2, 40, 1).expand(2, 40, 136)
-    mask = torch.arange(40) < torch.tensor([[40], [30]])
-    found, there = windows(frames, mask, torch.tensor([0, 1]), torch.tensor([0, 25]), 16)
-    assert found[0, HISTORY:, 0].tolist() == list(range(16))
-    assert not there[0, :HISTORY].any()
-    assert found[1, :, 0].tolist()[:15] == list(range(40 + 9, 40 + 24))
-    assert there[1].tolist() == [True] * 21 + [False] * 11

@@ -14,11 +14,13 @@ from motionrt.synthesis.composing import combination, compatible
 from motionrt_training.backbones import Backbone
 from motionrt_training.corpora.actions import Action, ActionClip
 from motionrt_training.corpora.text_mirror import mirror_text
-from motionrt_training.networks.egocentric import RATES, mirrored
+from motionrt_training.networks.egocentric import HEIGHT, RATES, mirrored
 from motionrt_training.options import option
 from motionrt_training.simultaneous import combined, random_combination, sentence
 
 TRIES = 30  # to find a partner that fits
+REPEAT, FADE = 12, 8  # frames: the shortest repetition, and how long it takes to get into it
+NEAR = 0.8  # how far apart, in height and 6D rotations, two poses may be to go on from one as from the other
 
 
 @dataclass(frozen=True)
@@ -33,6 +35,7 @@ class ActionData:
     separate: bool = option(False, "encode the two labels of a pair separately (STE)")
     least_frames: int = option(60, "shortest batch, frames at 30 fps")
     most_frames: int = option(240, "longest batch, frames at 30 fps")
+    prolong: bool = option(False, "repeat short clips whose end is like an earlier pose, such as strides")
     tempo: float = option(0.1, "largest random change of speed")
     mirror: bool = option(True, "mirror half of the motions, with left and right swapped in the text")
 
@@ -91,7 +94,8 @@ class Examples:
                     return first, second
 
     def _crop(self, clip: ActionClip, rng: np.random.Generator, longest: int) -> Tensor:
-        return crop(clip.frames, rng, longest, self.data.tempo)
+        frames = prolonged(clip.frames, longest + 1) if self.data.prolong else clip.frames
+        return crop(frames, rng, longest, self.data.tempo)
 
     def spoken(self, first: str, second: str, rng: np.random.Generator) -> tuple[str, ...]:
         """A pair as one sentence, or as two texts."""
@@ -108,6 +112,26 @@ def crop(frames: Tensor, rng: np.random.Generator, longest: int, tempo: float = 
     high = (low + 1).clamp(max=len(frames) - 1)
     found = torch.lerp(frames[low], frames[high], (at - low)[:, None])
     return torch.cat((found[:, RATES] * speed, found[:, RATES.stop :]), dim=1)
+
+
+def prolonged(frames: Tensor, wanted: int) -> Tensor:
+    """A clip (F, 136) that goes on from the earlier frame that is most like its last; as it is where none is near.
+
+    Clips of running last two seconds and say nothing of what comes then: runners who have learnt from them stop.
+    """
+    last = len(frames) - 2  # the rates of the very last frame say nothing
+    if len(frames) >= wanted or last < 2 * REPEAT:
+        return frames
+    apart = (frames[: last - REPEAT, HEIGHT.start :] - frames[last, HEIGHT.start :]).square().sum(1).sqrt()
+    again = int(apart.argmin())
+    if float(apart[again]) > NEAR:
+        return frames
+    off = frames[last] - frames[again]
+    part = frames[again + 1 : last + 1].clone()
+    weight = torch.linspace(1.0, 0.0, min(FADE, len(part)) + 1)[:-1, None]
+    part[: len(weight), HEIGHT.start :] += weight * off[HEIGHT.start :]
+    count = -(-(wanted - last - 1) // len(part))
+    return torch.cat((frames[: last + 1], part.repeat(count, 1)))[:wanted]
 
 
 class SpokenTexts:

@@ -13,11 +13,10 @@ from torch import Tensor, nn
 
 from motionrt_training import losses as L
 from motionrt_training.batches import padded
-from motionrt_training.continuing import continued
 from motionrt_training.corpora.actions import ActionClip
 from motionrt_training.networks import egocentric
 from motionrt_training.networks.kinematics import joint_positions
-from motionrt_training.networks.temos import StepDecoder, Temos
+from motionrt_training.networks.temos import Temos
 from motionrt_training.options import option
 from motionrt_training.temos_data import ActionData, Example, Examples, SpokenTexts
 
@@ -35,11 +34,6 @@ class TemosSettings:
     ff: int = option(1024, "feed-forward width")
     dropout: float = option(0.1, "dropout rate")
     patch: int = option(8, "frames per token of the motion networks (the paper: 1)")
-    decoder: str = option("steps", "all frames at once, as in the paper, or steps", ("parallel", "steps"))
-    decoder_layers: int = option(3, "layers of the step decoder")
-    windows: int = option(6, "windows of every example that the step decoder goes on from")
-    chain: int = option(4, "predictions in a row that are trained")
-    drift: float = option(0.15, "largest deviation of the history from the truth, standard deviations")
     batch: int = option(40, "examples per batch")
     kl_weight: float = option(1e-4, "weight of the four KL terms (the paper: 1e-5)")
     latent_weight: float = option(1e-4, "weight of the distance between the latents (the paper: 1e-5)")
@@ -87,13 +81,10 @@ class TemosTask:
         z_text, z_motion = text.sample(), motion.sample()
         choose = torch.rand(len(z_text), 1, device=z_text.device) < s.from_text
         latent = torch.where(choose, z_text, z_motion)
-        if isinstance(net.motion_decoder, StepDecoder):
-            decoded, frames, mask = continued(net.motion_decoder, latent, frames, mask, s)
-        else:
-            decoded = net.motion_decoder(latent, mask)
+        decoded = net.motion_decoder(latent, mask)
         with torch.autocast(frames.device.type, enabled=False):
             some = slice(0, max(1, round(s.measured * len(decoded))))
-            parts = reconstruction(net.denormalise(decoded[some]), net.denormalise(frames[some]), mask[some])
+            parts = reconstruction(net.denormalise(decoded[some]), batch["frames"][some], mask[some])
             parts["feature"] = 2.0 * L.reconstruction(decoded, frames, mask).mean()
             parts |= {"kl": L.kl_terms(text, motion), "latent": L.latent_distance(z_text, z_motion)}
         weights = {"feature": 1.0, "place": s.place, "speed": s.speed, "path": s.path}

@@ -20,7 +20,7 @@ from motionrt.synthesis.diffusion import ddim
 from motionrt.synthesis.sampling import Sampling
 from motionrt.synthesis.smoothing import smoothed
 
-PADDING = 20  # frames: the decoder sees multiples of them only, so that 15 lengths are all it ever has memory for
+PADDING = 20  # frames: the decoder sees multiples of them only, so that 12 lengths are all it ever has memory for
 
 
 class Generator:

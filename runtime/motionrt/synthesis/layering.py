@@ -28,7 +28,7 @@ class Makers:
     """What turns texts and plain motions into layers.
 
     Attributes:
-        make: gives the motion of a text, at most 10 s of it.
+        make: gives the motion of a text, at most 8 s of it.
         label: gives the body parts that a text needs.
         derive: finds the parts that a motion moves.
     """

@@ -15,7 +15,7 @@ from motionrt.motion.features import sinc135
 SAMPLERS = ("diffusion", "vae")
 DEFAULT_SAMPLER = "diffusion"
 SECONDS = 4.0
-SHORTEST_S, LONGEST_S = 0.5, 10.0  # what the models were trained on
+SHORTEST_S, LONGEST_S = 0.5, 8.0  # what the models were trained on
 GUIDANCE = 4.0  # weight of the text in diffusion
 STEPS = 10  # of diffusion
 MOST_STEPS = 1000
@@ -27,7 +27,7 @@ class Sampling:
     """What :meth:`Generator.generate` should do with a text.
 
     Attributes:
-        seconds: length, 0.5 to 10.
+        seconds: length, 0.5 to 8.
         seed: 0 or more; None draws one, which is then found here.
         n: how many motions.
         temperature: how far samples stray: 1 as trained, 0 not at all, at most 10.

@@ -1,4 +1,4 @@
-"""A decoder that adds some frames at a time leaves small jumps between them; here they are smoothed."""
+"""A decoder with several frames to a token leaves small jumps between tokens; here they are smoothed."""
 
 from __future__ import annotations
 

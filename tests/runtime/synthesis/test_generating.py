@@ -87,7 +87,7 @@ def test_guidance_and_steps_matter_to_diffusion_alone(generator: Generator) -> N
             assert (not np.allclose(plain, other)) is differs
 
 
-@pytest.mark.parametrize(("seconds", "frames"), [(0.5, 15), (1.0, 30), (3.3, 99), (4.0, 120), (10.0, 300)])
+@pytest.mark.parametrize(("seconds", "frames"), [(0.5, 15), (1.0, 30), (3.3, 99), (4.0, 120), (8.0, 240)])
 def test_a_motion_lasts_as_long_as_it_should(generator: Generator, seconds: float, frames: int) -> None:
     motion = generator.generate(TEXT, Sampling(seconds=seconds, seed=0))[0]
     assert motion.frames == frames
@@ -103,9 +103,9 @@ def test_the_decoder_sees_few_lengths(generator: Generator, monkeypatch: pytest.
         return decode(latent, mask)
 
     monkeypatch.setattr(generator.temos, "decode", watched)
-    for frames in range(15, 301):
+    for frames in range(15, 241):
         assert generator.decode(np.zeros((1, 256), np.float32), frames)[0].frames == frames
-    assert seen == set(range(20, 301, 20))
+    assert seen == set(range(20, 241, 20))
 
 
 def test_padding_does_not_change_a_frame(generator: Generator) -> None:

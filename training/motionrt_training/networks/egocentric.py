@@ -34,22 +34,12 @@ def to_egocentric(motion: Tensor) -> Tensor:
 
 def from_egocentric(frames: Tensor) -> Tensor:
     """(B, F, 136) -> raw `sinc135` (B, F, 135) that starts above the origin with its heading along +Z."""
-    return gone_on(frames, torch.zeros_like(frames[:, 0, :1]), torch.zeros_like(frames[:, 0, :2]))[0]
-
-
-def gone_on(frames: Tensor, yaw: Tensor, place: Tensor) -> tuple[Tensor, Tensor, Tensor]:
-    """Go on from a heading (B, 1) and a place (B, 2), x and z.
-
-    Returns:
-        Raw `sinc135` (B, F, 135), and heading and place of the frame that follows.
-    """
-    yaws = yaw[:, None] + F.pad(frames[..., TURN].cumsum(1), (0, 0, 1, 0))  # (B, F + 1, 1)
-    heading = torch.cat((yaws[:, :-1].sin(), yaws[:, :-1].cos()), dim=-1)
-    places = place[:, None] + F.pad(_planar(frames[..., STEP], heading, 1.0).cumsum(1), (0, 0, 1, 0))
+    yaw = _before(frames[..., TURN].cumsum(1))
+    heading = torch.cat((yaw.sin(), yaw.cos()), dim=-1)
+    place = _before(_planar(frames[..., STEP], heading, 1.0).cumsum(1))
     first = _turned(frames[..., 4:7], heading, 1.0)
     second = _turned(frames[..., 7:10], heading, 1.0)
-    raw = torch.cat((first, second, frames[..., JOINTS], places[:, :-1], frames[..., HEIGHT]), dim=-1)
-    return raw, yaws[:, -1], places[:, -1]
+    return torch.cat((first, second, frames[..., JOINTS], place, frames[..., HEIGHT]), dim=-1)
 
 
 def mirrored(frames: Tensor) -> Tensor:
@@ -73,6 +63,11 @@ def rotations(frames: Tensor) -> Tensor:
 
 def _unit(x: Tensor) -> Tensor:
     return x / (x.square().sum(-1, keepdim=True) + 1e-12).sqrt()
+
+
+def _before(sums: Tensor) -> Tensor:
+    """Sums over the frames before each."""
+    return F.pad(sums[:, :-1], (0, 0, 1, 0))
 
 
 def _planar(x: Tensor, heading: Tensor, sense: float) -> Tensor:

@@ -8,21 +8,16 @@ where in time things happen.
 
 from __future__ import annotations
 
-import math
-
 import torch
 import torch.nn.functional as F
 from torch import Tensor, nn
 
 from motionrt_training.networks.actor import FIRST_LOGVAR, ActorEncoder, Distribution, patched
-from motionrt_training.networks.egocentric import RATES, WIDTH, from_egocentric, gone_on, to_egocentric
+from motionrt_training.networks.egocentric import WIDTH, from_egocentric, to_egocentric
 from motionrt_training.networks.transformer import Dropout, ResidualLayer, key_bias, sinusoidal_positions
 
 MOTION_DIM = 135
 LONGEST = 300  # frames
-HISTORY, AHEAD = 16, 8  # frames that the step decoder sees, and that it adds at once
-CLOCK = 8  # waves that tell it the time
-STATE = HISTORY * WIDTH + 4  # numbers that the step decoder hands on
 
 
 class TemosEncoder(nn.Module):
@@ -77,57 +72,6 @@ class TemosDecoder(nn.Module):
         return frames[:, : mask.shape[1]].float()
 
 
-class StepDecoder(nn.Module):
-    """Latent and the last frames -> the next `AHEAD`, again and again: the frames before tell where in a stride one is.
-
-    Layers are residual, each modulated by the latent; the absolute features continue the last frame.
-    """
-
-    def __init__(self, d: int, layers: int, ff: int, dropout: float) -> None:
-        super().__init__()
-        self.enter = nn.Linear(HISTORY * (WIDTH + 1) + 2 * CLOCK, ff)
-        self.shape = nn.Linear(d, 2 * ff * layers)
-        self.norms = nn.ModuleList(nn.LayerNorm(ff, elementwise_affine=False) for _ in range(layers))
-        self.up = nn.ModuleList(nn.Linear(ff, ff) for _ in range(layers))
-        self.down = nn.ModuleList(nn.Linear(ff, ff) for _ in range(layers))
-        self.project = nn.Linear(ff, WIDTH * AHEAD)
-        self.drop = Dropout(dropout)
-        for last in (*self.down, self.project):
-            nn.init.zeros_(last.weight)
-            nn.init.zeros_(last.bias)
-
-    def modulation(self, latent: Tensor) -> Tensor:
-        """(B, d) -> scales and shifts of all layers (B, layers, 2, ff): once per motion."""
-        return self.shape(latent).unflatten(1, (len(self.up), 2, -1))
-
-    def step(self, history: Tensor, time: Tensor, modulation: Tensor) -> Tensor:
-        """The next normalised frames (B, 8, 136).
-
-        Args:
-            history: the last 16 normalised frames (B, 16, 136); what lies before the start does not matter.
-            time: (B,) frames since the start.
-            modulation: of `modulation`.
-        """
-        known = (time[:, None] + torch.arange(-HISTORY, 0, device=time.device) >= 0).to(history.dtype)
-        seen = history * known[..., None]
-        wave = time[:, None] * torch.arange(1, CLOCK + 1, device=time.device) * (math.pi / LONGEST)
-        x = self.enter(torch.cat((seen.flatten(1), known, wave.sin(), wave.cos()), dim=1))
-        for index, (norm, up, down) in enumerate(zip(self.norms, self.up, self.down, strict=True)):
-            scale, shift = modulation[:, index].unbind(1)
-            x = x + self.drop(down(F.gelu(up(norm(x) * (1.0 + scale) + shift))))
-        change = self.project(x).unflatten(1, (AHEAD, WIDTH)).float()
-        return torch.cat((change[..., RATES], change[..., RATES.stop :] + seen[:, -1:, RATES.stop :]), dim=-1)
-
-    def forward(self, latent: Tensor, mask: Tensor) -> Tensor:
-        """Latent (B, d), mask (B, F), F <= 300 -> normalised frames (B, F, 136)."""
-        modulation, found = self.modulation(latent), list[Tensor]()
-        history = latent.new_zeros(len(latent), HISTORY, WIDTH)
-        for first in range(0, mask.shape[1], AHEAD):
-            found.append(self.step(history, latent.new_full((len(latent),), first), modulation))
-            history = torch.cat((history, found[-1].to(history.dtype)), dim=1)[:, -HISTORY:]
-        return torch.cat(found, dim=1)[:, : mask.shape[1]]
-
-
 class Temos(nn.Module):
     """Text encoder, motion encoder and decoder with the statistics of the frames: callers speak raw sinc135, 30 fps."""
 
@@ -144,8 +88,6 @@ class Temos(nn.Module):
         ff: int = 1024,
         dropout: float = 0.1,
         patch: int = 8,
-        decoder: str = "parallel",
-        decoder_layers: int = 3,
     ) -> None:
         super().__init__()
         if motion_dim != MOTION_DIM:
@@ -159,17 +101,11 @@ class Temos(nn.Module):
             "ff": ff,
             "dropout": dropout,
             "patch": patch,
-            "decoder": decoder,
-            "decoder_layers": decoder_layers,
         }
         self.text_encoder = ActorEncoder(text_dim, d, layers, heads, ff, dropout)
         self.text_mu = nn.Linear(d, d)  # the latent has a scale of its own
         self.motion_encoder = TemosEncoder(d, layers, heads, ff, dropout, patch)
-        self.motion_decoder: TemosDecoder | StepDecoder = (
-            StepDecoder(d, decoder_layers, ff, dropout)
-            if decoder == "steps"
-            else TemosDecoder(d, layers, heads, ff, dropout, patch)
-        )
+        self.motion_decoder = TemosDecoder(d, layers, heads, ff, dropout, patch)
         self.register_buffer("frame_mean", torch.zeros(WIDTH))
         self.register_buffer("frame_std", torch.ones(WIDTH))
 
@@ -204,22 +140,3 @@ class Temos(nn.Module):
         """Latent (B, d), mask (B, F) -> raw sinc135 (B, F, 135) from the origin on, zeros where the mask is False."""
         mask = mask.to(torch.bool)
         return from_egocentric(self.denormalise(self.motion_decoder(latent, mask))) * mask[..., None]
-
-    def go_on(self, latent: Tensor, state: Tensor) -> tuple[Tensor, Tensor]:
-        """The next 8 frames of a network with the step decoder, and how to go on from them.
-
-        Args:
-            latent: (B, d).
-            state: (B, 2180), zeros at the start: 16 normalised frames, frames since the start, heading, place.
-
-        Returns:
-            Raw sinc135 (B, 8, 135), the next state (B, 2180).
-        """
-        if not isinstance(self.motion_decoder, StepDecoder):
-            raise ValueError("only a network with the step decoder goes on step by step")
-        history, time, yaw, place = state.split((HISTORY * WIDTH, 1, 1, 2), dim=1)
-        history = history.unflatten(1, (HISTORY, WIDTH))
-        frames = self.motion_decoder.step(history, time[:, 0], self.motion_decoder.modulation(latent))
-        motion, yaw, place = gone_on(self.denormalise(frames), yaw, place)
-        history = torch.cat((history, frames), dim=1)[:, -HISTORY:]
-        return motion, torch.cat((history.flatten(1), time + AHEAD, yaw, place), dim=1)
