@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -13,6 +12,7 @@ from torch import Tensor
 from motionrt.errors import FormatError, MotionFileNotFoundError
 from motionrt.motion.body_parts import checked_parts
 from motionrt.motion.features import sinc135
+from motionrt_training.corpora.cmu import caption_rows
 from motionrt_training.corpora.recordings import FPS, Recordings
 from motionrt_training.networks.egocentric import to_egocentric
 
@@ -57,18 +57,8 @@ def read_actions(recordings: Recordings, captions: str | Path) -> list[ActionCli
     if not path.is_file():
         raise MotionFileNotFoundError(f"{path} does not exist; name the captions.jsonl of the corpus")
     frames: dict[str, Tensor] = {}
-    clips = [_clip(row, recordings, frames, path, line) for line, row in enumerate(_rows(path), start=1)]
+    clips = [_clip(row, recordings, frames, path, line) for line, row in caption_rows(path)]
     return [clip for clip in clips if len(clip.frames) >= SHORTEST]
-
-
-def _rows(path: Path) -> list[dict[str, Any]]:
-    found = []
-    for line, text in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
-        try:
-            found.append(json.loads(text))
-        except json.JSONDecodeError as error:
-            raise FormatError(path, f"not JSON: {error.msg}", line) from None
-    return found
 
 
 def _clip(row: dict[str, Any], recordings: Recordings, frames: dict[str, Tensor], path: Path, line: int) -> ActionClip:

@@ -26,11 +26,12 @@ def read_cmu(folder: str | Path) -> MotionCorpus:
     captions = Path(folder) / "captions.jsonl"
     if not captions.is_file():
         raise MotionFileNotFoundError(f"{captions} does not exist; point to the folder that holds captions.jsonl")
-    clips = tuple(_clip(Path(folder), row, captions, line) for line, row in _rows(captions))
+    clips = tuple(_clip(Path(folder), row, captions, line) for line, row in caption_rows(captions))
     return MotionCorpus("cmu", clips)
 
 
-def _rows(path: Path) -> Iterator[tuple[int, dict[str, Any]]]:
+def caption_rows(path: Path) -> Iterator[tuple[int, dict[str, Any]]]:
+    """(line, row) of every row of a ``captions.jsonl``; FormatError for a line that is not JSON."""
     for line, text in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
         if not text.strip():
             continue

@@ -20,14 +20,6 @@ def sinusoidal_positions(length: int, d: int, like: Tensor) -> Tensor:
     return torch.stack((angle.sin(), angle.cos()), dim=-1).flatten(1).to(like.dtype)
 
 
-def fourier_positions(length: int, d: int, like: Tensor) -> Tensor:
-    """Positions with all frequencies up to half a cycle per token, evenly spaced: (length, d), sines and cosines."""
-    step = torch.arange(length, device=like.device, dtype=torch.float32)[:, None]
-    rate = torch.arange(d // 2, device=like.device, dtype=torch.float32) * (2.0 * math.pi / d)
-    angle = step * rate
-    return torch.stack((angle.sin(), angle.cos()), dim=-1).flatten(1).to(like.dtype)
-
-
 def key_bias(mask: Tensor, dtype: torch.dtype = torch.float32) -> Tensor:
     """(B, T) bool, True where valid -> (B, 1, 1, T) to be added to attention scores."""
     return ((~mask).to(dtype) * MASKED)[:, None, None, :]
