@@ -93,3 +93,7 @@ class ScriptError(MotionRTError, ValueError):
 
 class WalkError(MotionRTError, RuntimeError):
     """A character did not get to its goal in any reasonable time; the message says where it stayed, and what to try."""
+
+
+class MissingDependencyError(MotionRTError, ImportError):
+    """An optional package or program is not installed; the message gives the command that installs it."""

@@ -18,6 +18,9 @@ class FakeEmbedder:
         self.fingerprint, self.name, self.calls = fingerprint, name, 0
         self._projection = np.random.default_rng(7).normal(size=(263, WIDTH)).astype(np.float32)
 
+    def prepare(self) -> None:
+        """There is nothing to open."""
+
     def embed_motion(self, features: Sequence[np.ndarray]) -> np.ndarray:
         self.calls += len(features)
         return _unit(np.stack([window.mean(axis=0) @ self._projection for window in features]))

@@ -1,26 +1,53 @@
-"""Motion files in and out: BVH, ASF/AMC and AMASS npz."""
+"""Motion files in and out: BVH, GLB, ASF/AMC and AMASS npz."""
 
 from __future__ import annotations
 
-from motionrt.formats.amass import read_npz, write_npz
-from motionrt.formats.amc import read_amc
-from motionrt.formats.asf import read_asf
-from motionrt.formats.bvh import read_bvh
-from motionrt.formats.bvh_write import write_bvh
-from motionrt.formats.leading_pose import drop_leading_tpose
-from motionrt.formats.load import MOTION_SUFFIXES, WRITABLE_SUFFIXES, load_motion, load_rig, save_motion
+from typing import TYPE_CHECKING
+
+from motionrt._lazy import lazily
+
+if TYPE_CHECKING:
+    from motionrt.formats.amass import read_npz, write_npz
+    from motionrt.formats.amc import read_amc
+    from motionrt.formats.asf import read_asf
+    from motionrt.formats.bvh import read_bvh
+    from motionrt.formats.bvh_write import write_bvh
+    from motionrt.formats.glb import read_glb
+    from motionrt.formats.glb_write import write_glb
+    from motionrt.formats.leading_pose import drop_leading_tpose
+    from motionrt.formats.load import MOTION_SUFFIXES, WRITABLE_SUFFIXES, load_motion, load_rig, save_motion
+    from motionrt.formats.target import RIG_SUFFIXES, load_target
+
+_HOMES = {
+    "amass": ("read_npz", "write_npz"),
+    "amc": ("read_amc",),
+    "asf": ("read_asf",),
+    "bvh": ("read_bvh",),
+    "bvh_write": ("write_bvh",),
+    "glb": ("read_glb",),
+    "glb_write": ("write_glb",),
+    "leading_pose": ("drop_leading_tpose",),
+    "load": ("MOTION_SUFFIXES", "WRITABLE_SUFFIXES", "load_motion", "load_rig", "save_motion"),
+    "target": ("RIG_SUFFIXES", "load_target"),
+}
 
 __all__ = [
     "MOTION_SUFFIXES",
+    "RIG_SUFFIXES",
     "WRITABLE_SUFFIXES",
     "drop_leading_tpose",
     "load_motion",
     "load_rig",
+    "load_target",
     "read_amc",
     "read_asf",
     "read_bvh",
+    "read_glb",
     "read_npz",
     "save_motion",
     "write_bvh",
+    "write_glb",
     "write_npz",
 ]
+
+__getattr__ = lazily(__name__, _HOMES)

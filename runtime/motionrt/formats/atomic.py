@@ -27,3 +27,12 @@ def write_atomically(path: str | Path, write: Callable[[BinaryIO], None]) -> Pat
     finally:
         temporary.unlink(missing_ok=True)
     return path
+
+
+def write_bytes(path: str | Path, content: bytes) -> Path:
+    """The file that holds exactly ``content``; errors as :func:`write_atomically`."""
+    return write_atomically(path, lambda file: _put(file, content))
+
+
+def _put(file: BinaryIO, content: bytes) -> None:
+    file.write(content)

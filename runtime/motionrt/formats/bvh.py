@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from dataclasses import dataclass
 from pathlib import Path
 
 from motionrt.errors import FormatError
@@ -40,13 +41,36 @@ def read_bvh(path: str | Path, *, fps: float | None = None) -> RigClip:
         MotionFileNotFoundError: there is no such file.
         FormatError: the file is not a whole, finite BVH file; names the line.
     """
+    bvh = parse_bvh(path, fps=fps)
+    return build_rig(bvh.joints, bvh.values, bvh.fps)
+
+
+@dataclass(frozen=True, eq=False)
+class BvhText:
+    """A BVH file, parsed but not yet understood.
+
+    Attributes:
+        hierarchy: its text up to MOTION.
+        joints: what that declares.
+        values: ``(F, C)`` channel values.
+        fps: frames per second.
+    """
+
+    hierarchy: str
+    joints: list[BvhJoint]
+    values: Values
+    fps: float
+
+
+def parse_bvh(path: str | Path, *, fps: float | None = None) -> BvhText:
+    """Text, joints and numbers of a BVH file; arguments and errors as for :func:`read_bvh`."""
     path = Path(path)
     text = read_text(path)
     start = _MOTION.search(text)
     joints = parse_hierarchy(text[: start.start()] if start else text, path)
     if start is None:
         raise FormatError(path, "the file ends before MOTION", line_of(text, len(text)))
-    return build_rig(joints, *_read_motion(text, start.end(), joints, path, fps))
+    return BvhText(text[: start.start()], joints, *_read_motion(text, start.end(), joints, path, fps))
 
 
 def _read_motion(text: str, at: int, joints: list[BvhJoint], path: Path, fps: float | None) -> tuple[Values, float]:

@@ -43,12 +43,12 @@ def _translations(joints: list[BvhJoint], offsets: Values, values: Values) -> Va
     for j, (joint, first) in enumerate(zip(joints, _first_columns(joints), strict=True)):
         for i, axis in joint.positions:
             out[:, j, axis] = values[:, first + i]
-    relative = _with_differences(joints, offsets, out)
+    relative = joints_with_differences(joints, offsets, out)
     out[:, relative] += offsets[relative]
     return out
 
 
-def _with_differences(joints: list[BvhJoint], offsets: Values, translations: Values) -> list[int]:
+def joints_with_differences(joints: list[BvhJoint], offsets: Values, translations: Values) -> list[int]:
     """Joints whose position channels are to be added to the offset.
 
     Decided for all joints but the root together: their positions stay within a tenth of their offsets.

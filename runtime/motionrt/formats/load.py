@@ -10,27 +10,39 @@ from motionrt.errors import FormatError, InvalidInputError, MotionRTError
 from motionrt.formats.amass import read_npz, write_npz
 from motionrt.formats.amc import read_amc
 from motionrt.formats.bvh import read_bvh
-from motionrt.formats.bvh_write import write_bvh
+from motionrt.formats.bvh_write import UNITS, write_bvh
+from motionrt.formats.glb import read_glb
+from motionrt.formats.glb_write import write_glb
 from motionrt.formats.leading_pose import drop_leading_tpose
 from motionrt.formats.text import require_file
 from motionrt.motion.motion import Motion
 from motionrt.motion.retarget import to_smpl24
 from motionrt.motion.rig import RigClip
 
-MOTION_SUFFIXES = (".bvh", ".amc", ".npz")
+MOTION_SUFFIXES = (".bvh", ".amc", ".npz", ".glb")
 """What :func:`load_motion` reads, in any mixture of upper and lower case."""
 
-WRITABLE_SUFFIXES = (".bvh", ".npz")
+WRITABLE_SUFFIXES = (".bvh", ".glb", ".npz")
 """What :func:`save_motion` writes."""
 
 
-def load_rig(path: str | Path, *, asf: str | Path | None = None, fps: float | None = None) -> RigClip:
+def load_rig(
+    path: str | Path,
+    *,
+    asf: str | Path | None = None,
+    fps: float | None = None,
+    animation: int | str | None = None,
+    skin: int | str | None = None,
+) -> RigClip:
     """Read a motion file as it is: its own joints, units and axes, every frame.
 
     Args:
-        path: a ``.bvh``, ``.amc`` or ``.npz`` (AMASS) file.
+        path: a ``.bvh``, ``.amc``, ``.npz`` (AMASS) or ``.glb`` file.
         asf: the skeleton of an ``.amc``; looked for beside it if ``None``.
-        fps: frames per second to use instead of what the file says.
+        fps: frames per second to use instead of what the file says; of a ``.glb``, whose keys have times, the rate at
+            which they are sampled.
+        animation: name or index of the animation in a ``.glb`` that holds several.
+        skin: name or index of the figure in a ``.glb`` that holds several.
 
     Raises:
         MotionFileNotFoundError: the file, or the skeleton that it needs, does not exist.
@@ -45,6 +57,8 @@ def load_rig(path: str | Path, *, asf: str | Path | None = None, fps: float | No
     try:
         if suffix == ".bvh":
             return read_bvh(path, fps=fps)
+        if suffix == ".glb":
+            return read_glb(path, fps=fps, animation=animation, skin=skin)
         return read_amc(path, asf, fps=fps) if suffix == ".amc" else read_npz(path, fps=fps)
     except MotionRTError:
         raise
@@ -59,34 +73,54 @@ def load_motion(
     asf: str | Path | None = None,
     keep_first_frame: bool = False,
     fps: float | None = None,
+    animation: int | str | None = None,
+    skin: int | str | None = None,
 ) -> Motion:
     """Read a motion file onto the ``smpl24`` skeleton: metres, Y up, the file's frame rate.
 
     Args:
-        path: a ``.bvh``, ``.amc`` or ``.npz`` (AMASS) file.
+        path: a ``.bvh``, ``.amc``, ``.npz`` (AMASS) or ``.glb`` file.
         mapping: ``smpl24`` joint name -> joint name in the file, for rigs that are not recognised.
         asf: the skeleton of an ``.amc``; looked for beside it if ``None``.
         keep_first_frame: keep a leading calibration pose; otherwise it is dropped. It orients the rig anyway.
-        fps: frames per second to use instead of what the file says.
+        fps: as for :func:`load_rig`.
+        animation: as for :func:`load_rig`.
+        skin: as for :func:`load_rig`.
 
     Raises:
         MotionFileNotFoundError, FormatError, InvalidInputError: as :func:`load_rig`.
         RigError: the rig cannot be mapped to ``smpl24``; the message names what is missing.
     """
-    clip = load_rig(path, asf=asf, fps=fps)
+    clip = load_rig(path, asf=asf, fps=fps, animation=animation, skin=skin)
     motion_part, reference = drop_leading_tpose(clip)
     return to_smpl24(clip if keep_first_frame else motion_part, mapping=mapping, reference=reference)
 
 
-def save_motion(motion: Motion, path: str | Path) -> Path:
-    """Write a motion as ``.bvh`` (centimetres) or ``.npz`` (AMASS), whole or not at all; returns the path.
+def save_motion(motion: Motion, path: str | Path, *, units: str | None = None, t_pose: bool = False) -> Path:
+    """Write a motion as ``.bvh``, ``.glb`` or ``.npz`` (AMASS), whole or not at all; returns the path.
+
+    Args:
+        motion: what to write.
+        path: the file; its suffix is the format.
+        units: of a ``.bvh``: ``"cm"`` (unless said otherwise), ``"m"``, ``"mm"`` or ``"in"``; the others are metres.
+        t_pose: begin a ``.bvh`` with a frame of the T-pose.
 
     Raises:
-        InvalidInputError: another suffix, or the file cannot be written.
+        InvalidInputError: another suffix, options that the format does not have, or the file cannot be written.
     """
     path = Path(path)
     suffix = _suffix(path, WRITABLE_SUFFIXES, "written")
-    return write_bvh(motion, path) if suffix == ".bvh" else write_npz(motion, path)
+    if suffix == ".bvh":
+        return write_bvh(motion, path, scale=_units_per_metre(units or "cm"), t_pose=t_pose)
+    if t_pose or units not in {None, "m"}:
+        raise InvalidInputError(f"units and t_pose are for .bvh; a '{suffix}' is in metres and knows its rest pose")
+    return write_glb(motion, path) if suffix == ".glb" else write_npz(motion, path)
+
+
+def _units_per_metre(units: str) -> float:
+    if units not in UNITS:
+        raise InvalidInputError(f"units must be one of {', '.join(UNITS)}, not '{units}'")
+    return UNITS[units]
 
 
 def _suffix(path: Path, known: tuple[str, ...], verb: str) -> str:

@@ -8,6 +8,8 @@ from motionrt.errors import InvalidInputError
 from motionrt.motion.skeleton import SMPL24
 
 PARTS = ("left arm", "right arm", "left leg", "right leg", "torso", "global")
+"""The six body parts of SINC; ``global`` is the orientation and translation of the whole body."""
+
 ARMS, LEGS = PARTS[:2], PARTS[2:4]
 
 

@@ -8,14 +8,12 @@ backwards, so a motion and its reverse have the same contacts.
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
 from motionrt.motion.features import guo263
 from motionrt.motion.motion import Motion
 from motionrt.motion.rotations import Array
+from motionrt.motion.runs import BoolArray, Runs
 from motionrt.motion.skeleton import Skeleton
-
-BoolArray = npt.NDArray[np.bool_]
 
 CONTACT_JOINTS = ("left_ankle", "left_foot", "right_ankle", "right_foot")  # the order of guo263's contacts
 LOOSE_SPEED = float(guo263.CONTACT_SPEED) * guo263.FPS  # 0.89 m/s, the speed below which guo263 sees a contact
@@ -38,17 +36,22 @@ def foot_contacts(motion: Motion, floor: float = 0.0) -> BoolArray:
 
 def toe_contacts(motion: Motion, floor: float = 0.0, slower: float = 1.0) -> BoolArray:
     """``(F, 2)``: whether the ball of the left and right foot stands still; ``slower`` scales the speeds allowed."""
-    return joint_contacts(motion, floor, slower)[:, [1, 3]]
+    toes = motion.positions()[:, [motion.skeleton.index(name) for name in CONTACT_JOINTS[1::2]]]
+    return still(toes[..., 1] - floor, speeds(toes, motion.fps) / slower, motion.fps)
 
 
-def joint_contacts(motion: Motion, floor: float = 0.0, slower: float = 1.0) -> BoolArray:
+def joint_contacts(motion: Motion, floor: float = 0.0) -> BoolArray:
     """``(F, 4)``: contacts of left ankle, left toe, right ankle and right toe."""
     points = motion.positions()[:, [motion.skeleton.index(name) for name in CONTACT_JOINTS]]
     height = points[..., 1] - floor - standing_heights(motion.skeleton)
-    speed = speeds(points, motion.fps) / slower
+    return still(height, speeds(points, motion.fps), motion.fps)
+
+
+def still(height: Array, speed: Array, fps: float) -> BoolArray:
+    """``(F, N)``: the contacts of points by height above where they stand, metres, and speed, m/s."""
     strict = (speed < STRICT_SPEED) & (height < STRICT_HEIGHT)
     loose = (speed < LOOSE_SPEED) & (height < LOOSE_HEIGHT)
-    return _without_flickers(hysteresis(strict, loose), max(2, round(SHORTEST_S * motion.fps)))
+    return _without_flickers(hysteresis(strict, loose), max(2, round(SHORTEST_S * fps)))
 
 
 def standing_heights(skeleton: Skeleton) -> Array:
@@ -64,30 +67,27 @@ def speeds(points: Array, fps: float) -> Array:
     frames = np.arange(len(points))
     before, after = np.maximum(frames - half, 0), np.minimum(frames + half, len(points) - 1)
     seconds = np.maximum(after - before, 1) / fps
-    return np.asarray(np.linalg.norm(points[after] - points[before], axis=-1) / seconds[:, None])
+    way = points[after] - points[before]
+    return np.asarray(np.sqrt(np.einsum("fnd,fnd->fn", way, way)) / seconds[:, None])
 
 
 def hysteresis(strict: BoolArray, loose: BoolArray) -> BoolArray:
     """The stretches of ``loose`` ``(F, N)`` along the first axis that hold at least one ``strict`` frame."""
-    out = np.zeros_like(loose)
-    for column in range(loose.shape[1]):
-        for start, stop in stretches(loose[:, column]):
-            out[start:stop, column] = strict[start:stop, column].any()
-    return out
+    runs = Runs.of(loose)
+    return runs.flags(runs.reduce(np.logical_or, runs.flat(strict)[runs.inside]))
 
 
 def stretches(flags: BoolArray) -> list[tuple[int, int]]:
     """Start and stop (exclusive) of every run of true values in ``(F,)``."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], flags, [False]])))
-    return [(int(start), int(stop)) for start, stop in edges.reshape(-1, 2)]
+    runs = Runs.of(flags[:, None])
+    return list(zip(runs.starts.tolist(), runs.stops.tolist(), strict=True))
 
 
 def _without_flickers(flags: BoolArray, shortest: int) -> BoolArray:
     """Fill gaps, then drop contacts, of fewer than ``shortest`` frames; what touches an end of the motion stays."""
-    out = flags.copy()
-    for column in out.T:
-        for value in (False, True):
-            for start, stop in stretches(column == value):
-                if stop - start < shortest and start > 0 and stop < len(column):
-                    column[start:stop] = not value
-    return out
+    flags = flags | _flickers(Runs.of(~flags), shortest)
+    return flags & ~_flickers(Runs.of(flags), shortest)
+
+
+def _flickers(runs: Runs, shortest: int) -> BoolArray:
+    return runs.flags((runs.lengths < shortest) & ~runs.first & ~runs.last)

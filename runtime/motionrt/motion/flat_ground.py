@@ -11,9 +11,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from motionrt.motion.contacts import STRICT_SPEED, BoolArray, speeds
+from motionrt.motion.contacts import STRICT_SPEED, speeds
 from motionrt.motion.motion import Motion
 from motionrt.motion.rotations import Array
+from motionrt.motion.runs import BoolArray
 from motionrt.motion.transforms import TOE_JOINTS, floor_height
 
 HIGHEST = 0.15  # metres above the lowest toe: what stands higher stands on something

@@ -12,9 +12,10 @@ from dataclasses import replace
 import numpy as np
 
 from motionrt.errors import InvalidInputError
-from motionrt.motion.contacts import LOOSE_SPEED, STRICT_SPEED, BoolArray, speeds, stretches, toe_contacts
+from motionrt.motion.contacts import LOOSE_SPEED, STRICT_SPEED, speeds, still
 from motionrt.motion.motion import Motion
-from motionrt.motion.rotations import Array
+from motionrt.motion.rotations import Array, lengths
+from motionrt.motion.runs import BoolArray, Indices, Runs
 from motionrt.motion.skeleton import SMPL24
 from motionrt.motion.two_bone import LEG_JOINTS, bend_legs, soft_limit
 
@@ -55,13 +56,14 @@ def lock_feet(
     """
     if motion.skeleton != SMPL24:
         raise InvalidInputError("lock_feet needs a motion of the smpl24 skeleton")
-    planted = planted_toes(motion, floor) if contacts is None else np.asarray(contacts, dtype=bool)
+    toes = motion.positions()[:, _TOES].astype(np.float64)
+    speed = speeds(toes, motion.fps)
+    planted = _planted(toes, speed, motion.fps, floor) if contacts is None else np.asarray(contacts, dtype=bool)
     if planted.shape != (motion.frames, 2):
         raise InvalidInputError(f"contacts must have the shape ({motion.frames}, 2), not {planted.shape}")
     positions = motion.positions().astype(np.float64)
-    toes = positions[:, _TOES]
-    offset = _offsets(toes, planted, motion.fps, floor if level else None, blend_s)
-    offset[..., 1] += lift(toes[..., 1] + offset[..., 1] - floor, speeds(toes, motion.fps), clearance)
+    offset = _offsets(toes, planted, _calm(speed), floor if level else None, blend_s * motion.fps)
+    offset[..., 1] += lift(toes[..., 1] + offset[..., 1] - floor, speed, clearance)
     drop = _smooth_cover(needed_drop(positions, offset, planted, max_drop), max(1, round(blend_s * motion.fps / 2)))
     offset[..., 1] += drop[:, None]
     sunk = np.array([0, 1, 0]) * drop[:, None]
@@ -83,71 +85,74 @@ def planted_toes(motion: Motion, floor: float = 0.0) -> BoolArray:
     That is while the toe is down (within 2.5 cm of its height over the contact: a toe that still sinks after the heel
     has landed is not) and within 0.1 m of where it stands.
     """
-    planted, calmer = toe_contacts(motion, floor), toe_contacts(motion, floor, _CALMER)
-    toes = motion.positions()[:, _TOES]
-    weights = _calm(toes, motion.fps)
-    for foot in range(2):
-        for start, stop in _wide(toes[:, foot], planted[:, foot]):
-            planted[start:stop, foot] = calmer[start:stop, foot]
-        for start, stop in _wide(toes[:, foot], planted[:, foot]):
-            planted[start:stop, foot] = False
-        for start, stop in stretches(planted[:, foot]):
-            off = toes[start:stop, foot] - np.average(toes[start:stop, foot], axis=0, weights=weights[start:stop, foot])
-            near = np.hypot(off[:, 0], off[:, 2]) < MAX_SHIFT
-            planted[start:stop, foot] = near & (np.abs(off[:, 1]) < _DOWN)
-    return planted
+    toes = motion.positions()[:, _TOES].astype(np.float64)
+    return _planted(toes, speeds(toes, motion.fps), motion.fps, floor)
 
 
-def _wide(toe: Array, planted: BoolArray) -> list[tuple[int, int]]:
-    return [run for run in stretches(planted) if np.ptp(toe[slice(*run)], axis=0).max() > 2 * MAX_SHIFT]
+def _planted(toes: Array, speed: Array, fps: float, floor: float) -> BoolArray:
+    """The same of toes ``(F, 2, 3)`` that move at ``speed`` ``(F, 2)`` m/s."""
+    height = np.tile(toes[..., 1] - floor, 2)
+    planted, calmer = np.split(still(height, np.concatenate([speed, speed / _CALMER], axis=1), fps), 2, axis=1)
+    planted = np.where(_wide(toes, planted), calmer, planted)
+    planted &= ~_wide(toes, planted)
+    runs = Runs.of(planted)
+    inside = runs.flat(toes)[runs.inside]
+    off = inside - runs.repeat(runs.mean(inside, runs.flat(_calm(speed))[runs.inside]))
+    flat = np.zeros(toes.shape[0] * toes.shape[1], dtype=bool)
+    flat[runs.inside] = (np.hypot(off[:, 0], off[:, 2]) < MAX_SHIFT) & (np.abs(off[:, 1]) < _DOWN)
+    return runs.shaped(flat)
 
 
-def _calm(toes: Array, fps: float) -> Array:
+def _wide(toes: Array, planted: BoolArray) -> BoolArray:
+    """The contacts ``(F, 2)`` in which a toe travels too far to be pinned."""
+    runs = Runs.of(planted)
+    inside = runs.flat(toes)[runs.inside]
+    spread = runs.reduce(np.maximum, inside) - runs.reduce(np.minimum, inside)
+    return runs.flags((spread > 2 * MAX_SHIFT).any(axis=1))
+
+
+def _calm(speed: Array) -> Array:
     """``(F, 2)`` weights: the calm middle of a contact says where the toe stands, not its beginning and end."""
-    return np.asarray(1 / (1 + (speeds(toes, fps) / (STRICT_SPEED / 2)) ** 4))
+    return np.asarray(1 / (1 + (speed / (STRICT_SPEED / 2)) ** 4))
 
 
-def _offsets(toes: Array, planted: BoolArray, fps: float, level: float | None, blend_s: float) -> Array:
-    """``(F, 2, 3)``: what moves each toe to its pinned point, faded to nothing away from contacts."""
-    offset, weights = np.zeros_like(toes), _calm(toes, fps)
-    for foot in range(2):
-        for start, stop in stretches(planted[:, foot]):
-            toe = toes[start:stop, foot]
-            point = np.average(toe, axis=0, weights=weights[start:stop, foot])
-            offset[start:stop, foot] = _to_point(toe, point, level)
-        offset[:, foot] = _faded(offset[:, foot], planted[:, foot], blend_s * fps)
-    return offset
+def _offsets(toes: Array, planted: BoolArray, calm: Array, level: float | None, blend: float) -> Array:
+    """``(F, 2, 3)``: what moves each toe to its pinned point, faded over ``blend`` frames away from contacts."""
+    runs = Runs.of(planted)
+    inside, weights = runs.flat(toes)[runs.inside], runs.flat(calm)[runs.inside]
+    offset = np.zeros((toes.shape[0] * toes.shape[1], 3))
+    offset[runs.inside] = _to_point(inside, runs.repeat(runs.mean(inside, weights)), level)
+    return np.ascontiguousarray(runs.shaped(_faded(offset, Runs.of(~planted), blend)))
 
 
 def _to_point(toe: Array, point: Array, level: float | None) -> Array:
-    """Offsets of ``(F, 3)`` to ``point``; heights only where they are off by little: a toe that lifts is let go."""
+    """Offsets of ``(K, 3)`` to ``point``; heights only where they are off by little: a toe that lifts is let go."""
     offset = point - toe
     offset[:, 1] /= 1 + (offset[:, 1] / (_DOWN / 2)) ** 4
-    offset[:, 1] += 0 if level is None else level - point[1]
+    offset[:, 1] += 0 if level is None else level - point[:, 1]
     return np.asarray(offset)
 
 
-def _faded(offset: Array, planted: BoolArray, blend: float) -> Array:
-    """Offsets ``(F, 3)`` that leave and reach every contact with the speed they have there: cubic Hermite tails."""
+def _faded(offset: Array, gaps: Runs, blend: float) -> Array:
+    """Offsets that leave and reach every contact with the speed they have there: cubic Hermite tails."""
     out = offset.copy()
-    frames = np.arange(len(planted))
-    gaps = stretches(~planted)
-    for start, stop in gaps:
-        span = max(min(blend, stop - start + 1.0), 1.0)
-        inside = frames[start:stop]
-        if start > 0:
-            out[start:stop] += _tail(offset, start - 1, -1, (inside - start + 1) / span, span)
-        if stop < len(planted):
-            out[start:stop] += _tail(offset, stop, 1, (stop - inside) / span, span)
+    span = np.clip(gaps.lengths + 1.0, 1.0, max(blend, 1.0))
+    passed = gaps.inside - gaps.repeat(gaps.starts) + 1.0
+    left = gaps.repeat(gaps.stops) - gaps.inside + 0.0
+    for edge, inward, ends, time in ((gaps.starts - 1, -1, gaps.first, passed), (gaps.stops, 1, gaps.last, left)):
+        out[gaps.inside] += _tails(offset, gaps, np.where(ends, -1, edge), inward, time, span)
     return out
 
 
-def _tail(offset: Array, edge: int, inward: int, s: Array, span: float) -> Array:
-    """The offset at ``edge`` with its slope there, brought to zero with zero slope over ``span`` frames, s = 0 .. 1."""
-    inner = min(max(edge + inward, 0), len(offset) - 1)
-    slope = offset[edge] - offset[inner] if offset[inner].any() else np.zeros(3)
-    s = np.minimum(s, 1)[:, None]
-    return np.asarray((1 - s) ** 2 * ((1 + 2 * s) * offset[edge] + s * span * slope))
+def _tails(offset: Array, gaps: Runs, edge: Indices, inward: int, time: Array, span: Array) -> Array:
+    """The offsets at the edges with their slopes there, brought to zero with zero slope; nothing for an edge of -1."""
+    foot = edge // gaps.frames
+    inner = np.clip(edge + inward, foot * gaps.frames, (foot + 1) * gaps.frames - 1)
+    there = (edge >= 0)[:, None]
+    value = np.where(there, offset[edge], 0)
+    slope = np.where(there & offset[inner].any(axis=1, keepdims=True), offset[edge] - offset[inner], 0)
+    s = np.minimum(time / gaps.repeat(span), 1)[:, None]
+    return np.asarray((1 - s) ** 2 * ((1 + 2 * s) * gaps.repeat(value) + s * gaps.repeat(span[:, None] * slope)))
 
 
 def needed_drop(positions: Array, offset: Array, planted: BoolArray, max_drop: float) -> Array:
@@ -163,8 +168,8 @@ def needed_drop(positions: Array, offset: Array, planted: BoolArray, max_drop: f
         ``(...)`` metres, not negative.
     """
     hip, knee, ankle = (positions[..., [leg[i] for leg in LEG_JOINTS], :] for i in range(3))
-    full = np.linalg.norm(knee - hip, axis=-1) + np.linalg.norm(ankle - knee, axis=-1)
-    reach = soft_limit(np.linalg.norm(ankle - hip, axis=-1), full)
+    full = lengths(knee - hip) + lengths(ankle - knee)
+    reach = soft_limit(lengths(ankle - hip), full)
     aim = ankle + offset - hip
     height = np.sqrt(np.maximum(reach**2 - aim[..., 0] ** 2 - aim[..., 2] ** 2, 0))
     drop = np.where(planted, -aim[..., 1] - height, 0)
@@ -173,6 +178,8 @@ def needed_drop(positions: Array, offset: Array, planted: BoolArray, max_drop: f
 
 def _smooth_cover(values: Array, half: int) -> Array:
     """A smooth curve nowhere below ``values`` ``(F,)``: their running maximum, averaged over the same window."""
+    if not values.any():
+        return np.zeros_like(values)
     width = 2 * half + 1
     maximum = np.lib.stride_tricks.sliding_window_view(np.pad(values, half), width).max(axis=1)
     kernel = np.hanning(width + 2)[1:-1]

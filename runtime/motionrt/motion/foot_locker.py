@@ -7,10 +7,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from motionrt.errors import InvalidInputError
-from motionrt.motion.contacts import LOOSE_HEIGHT, LOOSE_SPEED, STRICT_HEIGHT, STRICT_SPEED, BoolArray
+from motionrt.motion.contacts import LOOSE_HEIGHT, LOOSE_SPEED, STRICT_HEIGHT, STRICT_SPEED
 from motionrt.motion.foot_lock import BLEND_S, CLEARANCE, MAX_DROP, MAX_SHIFT, lift, needed_drop
 from motionrt.motion.kinematics import fk
 from motionrt.motion.rotations import Array
+from motionrt.motion.runs import BoolArray
 from motionrt.motion.skeleton import SMPL24, FloatArray
 from motionrt.motion.two_bone import LEG_JOINTS, bend_legs
 

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,6 +14,9 @@ from motionrt.errors import InvalidInputError
 from motionrt.motion import transforms
 from motionrt.motion.kinematics import fk
 from motionrt.motion.skeleton import SMPL24, FloatArray, Skeleton
+
+if TYPE_CHECKING:
+    from motionrt.motion.rig_target import Rig, RigMotion
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,6 +71,15 @@ class Motion:
             array.setflags(write=False)
         return positions.astype(np.float32, copy=False), rotations.astype(np.float32, copy=False)
 
+    def posed_as(self, other: Motion, offset: FloatArray) -> Motion:
+        """The same; takes over the global positions and rotations that ``other``, ``offset`` (3,) away, has found."""
+        if "_posed" in vars(other) and "_posed" not in vars(self):
+            positions, rotations = other._posed
+            positions = positions + offset
+            positions.setflags(write=False)
+            vars(self)["_posed"] = positions, rotations
+        return self
+
     def positions(self) -> FloatArray:
         """Global joint positions ``(F, J, 3)``, metres, by forward kinematics (computed once)."""
         return self._posed[0]
@@ -101,11 +115,37 @@ class Motion:
         """Moved vertically so that the lowest foot of the whole motion touches the floor, y = 0."""
         return transforms.grounded(self)
 
-    def save(self, path: str | Path) -> Path:
-        """Write the motion to ``path`` in the format that its suffix names (.bvh, .npz); returns the path."""
-        from motionrt.formats import save_motion  # the one call upwards, so that users need not know the floors
+    def save(self, path: str | Path, *, units: str | None = None, t_pose: bool = False) -> Path:
+        """Write the motion to ``path`` in the format that its suffix names (.bvh, .glb, .npz); returns the path.
 
-        return save_motion(self, path)
+        Args:
+            path: the file.
+            units: of a ``.bvh``: ``"cm"`` (unless said otherwise), ``"m"``, ``"mm"`` or ``"in"``.
+            t_pose: begin a ``.bvh`` with a frame of the T-pose.
+        """
+        from motionrt.formats import save_motion  # upwards, so that users need not know the floors
+
+        return save_motion(self, path, units=units, t_pose=t_pose)
+
+    def retarget_to(
+        self, rig: Rig | str | Path, *, mapping: Mapping[str, str] | None = None, root_motion: bool | str = False
+    ) -> RigMotion:
+        """The motion on a character of your own; ``.save("x.glb")`` or ``.save("x.bvh")`` writes it.
+
+        Args:
+            rig: his file (.glb, .bvh), or what :func:`motionrt.load_target` made of it.
+            mapping: ``smpl24`` joint name -> joint name in the file, for rigs that are not recognised; may be partial.
+            root_motion: put travel and heading on the joint above the pelvis, or on the joint of that name.
+
+        Raises:
+            MotionFileNotFoundError, FormatError: as :func:`motionrt.load_target`.
+            RigError: as :func:`motionrt.motion.retarget_out.to_rig`.
+        """
+        from motionrt.formats import load_target
+        from motionrt.motion.retarget_out import to_rig
+
+        target = load_target(rig) if isinstance(rig, str | Path) else rig
+        return to_rig(self, target, mapping=mapping, root_motion=root_motion)
 
 
 def _frozen(array: FloatArray, name: str, shape: tuple[int, ...]) -> FloatArray:

@@ -1,6 +1,7 @@
-"""Retargeting: any humanoid rig's animation -> a :class:`Motion` of the canonical skeleton ``smpl24``.
+"""Retargeting in: any humanoid rig's animation -> a :class:`Motion` of the canonical skeleton ``smpl24``.
 
-1. ``rig_roles`` finds which rig joint plays which role (names, the user's mapping, structure).
+1. ``rig_stance`` understands the rig: ``rig_roles`` finds which joint plays which role (names, the user's
+   mapping, structure).
 2. A constant rotation per joint carries the rig's bone axes to those of ``smpl24``: from a known standing
    pose (``rig_alignment``) or, where there is none, from the animation (``rig_calibration``).
 3. The limbs' directions are copied exactly (``rig_limbs``); trunk and neck of any length are resampled.
@@ -14,21 +15,16 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from motionrt.errors import RigError
 from motionrt.motion.kinematics import global_to_local
 from motionrt.motion.motion import Motion
 from motionrt.motion.rig import RigClip
-from motionrt.motion.rig_alignment import Alignments, align_standing, role_rotations
-from motionrt.motion.rig_axes import sides_agree, to_y_up
-from motionrt.motion.rig_calibration import align_from_motion
-from motionrt.motion.rig_elbows import align_elbows
+from motionrt.motion.rig_alignment import Alignments, role_rotations
 from motionrt.motion.rig_limbs import swing_limbs
 from motionrt.motion.rig_own import as_own_motion
 from motionrt.motion.rig_placement import place_root
-from motionrt.motion.rig_pose import RigPose, animated_pose, standing_axes, still_pose
+from motionrt.motion.rig_pose import RigPose
 from motionrt.motion.rig_repairs import settle_head, unroll_feet
-from motionrt.motion.rig_roles import RigRoles, cast_roles
-from motionrt.motion.rig_tree import RigTree
+from motionrt.motion.rig_stance import read_stance
 from motionrt.motion.rotations import Array, matrix_to_quaternion, quaternion_to_matrix, slerp
 from motionrt.motion.skeleton import SMPL24, FloatArray
 
@@ -58,42 +54,17 @@ def to_smpl24(
     own = as_own_motion(clip) if mapping is None else None
     if own is not None:
         return own
-    tree = RigTree(clip)
-    roles = cast_roles(tree, mapping)
-    motion = animated_pose(clip, roles)
-    if not np.isfinite(motion.positions).all():
-        raise RigError("the clip holds positions that are not finite")
-    if not sides_agree(motion) and not _sides_given(mapping):
-        roles = roles.swapped()
-        motion.roles = roles
-    still, axes = _standing(clip, roles, reference)
-    to_world = to_y_up(clip.up, motion, axes)
-    if still is not None and axes is not None:
-        alignments = align_elbows(motion, align_standing(still, axes))
-    else:
-        alignments = align_from_motion(motion, to_world.T[:, 1])
-    turned = to_world @ _follow(motion, alignments)
-    world = RigPose(motion.positions @ to_world.T, motion.rotations, roles)
+    poses = [clip.rest_rotations()] if reference is None else [reference, clip.rest_rotations()]
+    stance = read_stance(clip, mapping, poses)
+    motion, to_world = stance.motion, stance.to_world
+    turned = to_world @ _follow(motion, stance.alignments)
+    world = RigPose(motion.positions @ to_world.T, motion.rotations, stance.roles)
     swing_limbs(turned, world)
     unroll_feet(turned, world)
     settle_head(turned)
     root = place_root(turned, world, clip.fps)
     local = global_to_local(turned, SMPL24.parents)
     return Motion(local.astype(np.float32), root.astype(np.float32), clip.fps)
-
-
-def _sides_given(mapping: Mapping[str, str] | None) -> bool:
-    return any(role.startswith(("left_", "right_")) for role in mapping or {})
-
-
-def _standing(clip: RigClip, roles: RigRoles, reference: FloatArray | None) -> tuple[RigPose | None, Array | None]:
-    """The first of reference and rest pose that is a known standing pose, with its body axes."""
-    for local in (reference, None) if reference is not None else (None,):
-        pose = still_pose(clip, roles, local)
-        axes = standing_axes(pose)
-        if axes is not None:
-            return pose, axes
-    return None, None
 
 
 def _follow(motion: RigPose, alignments: Alignments) -> Array:

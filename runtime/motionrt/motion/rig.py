@@ -25,6 +25,11 @@ class RigClip:
         fps: frames per second.
         up: ``"y"`` or ``"z"`` where the format fixes the vertical axis, else ``None``.
         metres_per_unit: where the format fixes the unit, else ``None``.
+        rest: ``(J, 3, 3)`` local rotations of the rest pose where the format has one (the bind pose of glTF); ``None``
+            where the rest pose is the one without rotations (BVH).
+
+    Raises:
+        InvalidInputError: shapes that do not belong together, or a frame rate that is not positive.
     """
 
     names: tuple[str, ...]
@@ -35,6 +40,7 @@ class RigClip:
     fps: float
     up: str | None = None
     metres_per_unit: float | None = None
+    rest: FloatArray | None = None
 
     def __post_init__(self) -> None:
         joints = len(self.names)
@@ -42,6 +48,8 @@ class RigClip:
             raise InvalidInputError("a RigClip needs offsets (J, 3) and rotations (F, J, 3, 3) for its J names")
         if self.translations.shape != self.rotations.shape[:-1]:
             raise InvalidInputError("a RigClip needs translations (F, J, 3)")
+        if self.rest is not None and self.rest.shape != (joints, 3, 3):
+            raise InvalidInputError("the rest pose of a RigClip has the shape (J, 3, 3)")
         if not np.isfinite(self.fps) or self.fps <= 0:
             raise InvalidInputError(f"frame rate must be positive, not {self.fps}")
 
@@ -55,11 +63,20 @@ class RigClip:
         positions, rotations = fk(self.rotations, self.translations[:, 0], self.translations, self.parents)
         return positions.astype(np.float32), rotations.astype(np.float32)
 
+    def rest_rotations(self) -> FloatArray:
+        """``(J, 3, 3)`` local rotations of the rest pose: ``rest``, or none at all."""
+        if self.rest is not None:
+            return self.rest
+        return np.tile(np.eye(3, dtype=np.float32), (len(self.names), 1, 1))
+
+    def rest_pose(self) -> tuple[FloatArray, FloatArray]:
+        """Global positions ``(J, 3)`` in file units and rotations ``(J, 3, 3)`` at rest, root at its offset."""
+        positions, rotations = fk(self.rest_rotations(), self.offsets[0], self.offsets, self.parents)
+        return positions.astype(np.float32), rotations.astype(np.float32)
+
     def rest_positions(self) -> FloatArray:
-        """``(J, 3)`` joint positions with every rotation at zero, file units, root at its offset."""
-        identity = np.broadcast_to(np.eye(3, dtype=np.float32), (len(self.names), 3, 3))
-        positions, _ = fk(identity, self.offsets[0], self.offsets, self.parents)
-        return positions.astype(np.float32)
+        """``(J, 3)`` joint positions of :meth:`rest_pose`."""
+        return self.rest_pose()[0]
 
     def slice(self, start: int, stop: int | None = None) -> RigClip:
         """The frames ``start:stop`` as a clip of their own."""

@@ -56,8 +56,7 @@ def animated_pose(clip: RigClip, roles: RigRoles) -> RigPose:
 
 def still_pose(clip: RigClip, roles: RigRoles, local: FloatArray | None = None) -> RigPose:
     """One pose: the rest pose, or the one with the local rotations ``local`` ``(J, 3, 3)``."""
-    if local is None:
-        local = np.broadcast_to(np.eye(3, dtype=np.float32), (len(clip.names), 3, 3))
+    local = clip.rest_rotations() if local is None else local
     offsets = clip.offsets.astype(np.float64)
     return RigPose(*fk(np.asarray(local, dtype=np.float64), offsets[0], offsets, clip.parents), roles)
 

@@ -13,6 +13,7 @@ from motionrt.errors import RigError
 from motionrt.motion.rig_tree import RigTree
 
 _LIKENESS = 0.15
+_PAIR_LIMIT = 1000
 
 
 @dataclass(frozen=True)
@@ -60,6 +61,8 @@ def _legs_and_arms(tree: RigTree) -> tuple[_Pair, _Pair]:
 def _outer_pairs(tree: RigTree) -> list[_Pair]:
     """Pairs of like chains of at least three bones' joints that do not lie inside a limb of another pair."""
     found = [pair for anchor in range(len(tree)) for pair in _pairs_at(tree, anchor)]
+    if len(found) > _PAIR_LIMIT:
+        raise RigError("the rig is not recognised as a humanoid: it has hundreds of like limbs")
     outer: list[_Pair] = []
     for pair in found:
         inside = any(

@@ -21,6 +21,9 @@ class Skeleton:
         names: ``J`` joint names, parents before children.
         parents: ``J`` parent indices, ``-1`` for the root.
         offsets: ``(J, 3)`` float32, metres, from the parent in the rest pose.
+
+    Raises:
+        InvalidInputError: unequal lengths, or a joint that stands before its parent.
     """
 
     names: tuple[str, ...]

@@ -19,6 +19,7 @@ from motionrt.motion.rotations import (
     slerp,
     yaw_angle,
 )
+from motionrt.motion.skeleton import FloatArray
 
 if TYPE_CHECKING:
     from motionrt.motion.motion import Motion
@@ -80,12 +81,13 @@ def turned(motion: Motion, yaw: float) -> Motion:
 
 def moved(motion: Motion, offset: Array) -> Motion:
     """Translate by ``offset`` ``(3,)`` metres."""
-    return replace(motion, root=motion.root + np.asarray(offset, dtype=np.float32))
+    way: FloatArray = np.asarray(offset, dtype=np.float32)
+    return replace(motion, root=motion.root + way).posed_as(motion, way)
 
 
 def canonical(motion: Motion) -> Motion:
     """Frame 0 above the origin and facing +Z; heights stay."""
-    upright = turned(motion, -float(heading(motion)[0]))
+    upright = turned(motion, -float(heading(motion[:1])[0]))
     return moved(upright, -upright.root[0] * np.array([1, 0, 1], dtype=np.float32))
 
 

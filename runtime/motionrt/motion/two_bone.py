@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from motionrt.motion.rotations import Array, normalise, rotation_between
+from motionrt.motion.rotations import Array, lengths, normalise, rotation_between
 from motionrt.motion.skeleton import SMPL24
 
 SOFT = 0.01
@@ -33,21 +33,21 @@ def two_bone(chain: Array, rotations: Array, target: Array, pole: Array, soft: f
     """
     start, middle, end = (np.asarray(chain[..., i, :], dtype=np.float64) for i in range(3))
     upper, lower = middle - start, end - middle
+    line, way = end - start, target - start
     a, b = _length(upper), _length(lower)
-    now, wanted = _length(end - start), _length(target - start)
+    now, wanted = _length(line), _length(way)
     distance = _soft_reach(wanted, now, a + b, soft)
     distance = np.maximum(distance, np.abs(a - b) * (1 + 1e-6) + 1e-9)
-    swing = rotation_between(end - start, target - start)
+    swing = rotation_between(line, way)
     share = (a**2 - b**2 + distance**2) / (2 * distance)
     height = np.sqrt(np.maximum(a**2 - share**2, 0))
-    along = normalise(_turn(swing, end - start))
-    new_middle = start + along * share + _turn(swing, _bend(upper, end - start, pole, height, a + b)) * height
+    along = normalise(_turn(swing, line))
+    new_middle = start + along * share + _turn(swing, _bend(upper, line, pole, height, a + b)) * height
     new_end = start + along * distance
-    turns = [
-        rotation_between(_turn(swing, bone), moved) @ swing
-        for bone, moved in ((upper, new_middle - start), (lower, new_end - new_middle))
-    ]
-    return np.stack([start, new_middle, new_end], axis=-2), np.stack(turns, axis=-3) @ rotations
+    bones = np.stack([upper, lower], axis=-2) @ np.swapaxes(swing, -1, -2)
+    turns = rotation_between(bones, np.stack([new_middle - start, new_end - new_middle], axis=-2))
+    turned = turns @ (swing[..., None, :, :] @ rotations)
+    return np.stack([start, new_middle, new_end], axis=-2), turned
 
 
 def soft_limit(distance: Array, full: Array, soft: float = SOFT) -> Array:
@@ -76,11 +76,11 @@ def _bend(upper: Array, line: Array, pole: Array, height: Array, full: Array) ->
 
 
 def _orthogonal(vectors: Array, line: Array) -> Array:
-    return np.asarray(vectors - (vectors * line).sum(-1, keepdims=True) * line)
+    return np.asarray(vectors - np.einsum("...d,...d->...", vectors, line)[..., None] * line)
 
 
 def _length(vectors: Array) -> Array:
-    return np.asarray(np.linalg.norm(vectors, axis=-1, keepdims=True))
+    return lengths(vectors)[..., None]
 
 
 def _turn(matrices: Array, vectors: Array) -> Array:

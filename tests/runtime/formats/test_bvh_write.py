@@ -114,15 +114,45 @@ def test_a_folder_that_does_not_exist_is_a_clear_error(tmp_path: Path) -> None:
         write_bvh(standing(), tmp_path / "nowhere" / "clip.bvh")
 
 
-def test_a_failed_write_leaves_the_old_file_and_no_litter(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    path = tmp_path / "clip.bvh"
+@pytest.mark.parametrize("suffix", [".bvh", ".glb"])
+def test_a_failed_write_leaves_the_old_file_and_no_litter(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, suffix: str
+) -> None:
+    path = tmp_path / f"clip{suffix}"
     path.write_text("precious", encoding="utf-8")
 
     def full(*_: object) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("motionrt.formats.bvh_write._put", full)
+    monkeypatch.setattr("motionrt.formats.atomic._put", full)
     with pytest.raises(InvalidInputError, match="No space left"):
-        write_bvh(standing(), path)
+        standing().save(path)
     assert path.read_text(encoding="utf-8") == "precious"
     assert list(tmp_path.iterdir()) == [path]
+
+
+@pytest.mark.parametrize(("units", "scale"), [("cm", 100), ("m", 1), ("mm", 1000), ("in", 1 / 0.0254)])
+def test_a_file_can_be_in_any_unit(tmp_path: Path, units: str, scale: float) -> None:
+    motion = random_motion(5, fps=30)
+    clip = read_bvh(motion.save(tmp_path / "clip.bvh", units=units))
+    assert_allclose(clip.translations[:, 0], motion.root * scale, atol=1e-5 * scale)
+    assert_allclose(load_motion(tmp_path / "clip.bvh").positions(), motion.positions(), atol=1e-4)
+
+
+def test_an_unknown_unit_lists_the_known_ones(tmp_path: Path) -> None:
+    with pytest.raises(InvalidInputError, match="units must be one of m, cm, mm, in, not 'ft'"):
+        standing().save(tmp_path / "clip.bvh", units="ft")
+
+
+def test_the_file_may_begin_with_a_t_pose_that_readers_drop_again(tmp_path: Path) -> None:
+    motion = random_motion(20, fps=30, root=(2, 0.9, -1))
+    clip = read_bvh(motion.save(tmp_path / "clip.bvh", t_pose=True))
+    assert clip.frames == 21
+    assert_allclose(clip.rotations[0], np.broadcast_to(np.eye(3), clip.rotations[0].shape), atol=1e-6)
+    toe = clip.names.index("left_foot")
+    first = clip.global_pose()[0][0]
+    assert_allclose(first[toe, 1], 0, atol=1e-3)
+    assert_allclose(first[0, [0, 2]], motion.root[0, [0, 2]] * 100, atol=1e-3)
+    loaded = load_motion(tmp_path / "clip.bvh")
+    assert_allclose(loaded.positions(), motion.positions(), atol=1e-4)
+    assert load_motion(tmp_path / "clip.bvh", keep_first_frame=True).frames == 21

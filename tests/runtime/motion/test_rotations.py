@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
+from scipy.linalg import polar
 from scipy.spatial.transform import Rotation, Slerp
 
 from motionrt.errors import InvalidInputError
@@ -97,7 +98,7 @@ def test_projection_to_so3_gives_the_nearest_rotation() -> None:
     matrices = random_rotations(50).as_matrix()
     noisy = matrices + np.random.default_rng(3).normal(0, 0.02, matrices.shape)
     projected = r.project_to_so3(noisy)
-    np.testing.assert_allclose(projected, Rotation.from_matrix(noisy).as_matrix(), atol=2e-3)
+    np.testing.assert_allclose(projected, [polar(matrix)[0] for matrix in noisy], atol=1e-9)
     np.testing.assert_allclose(np.linalg.det(projected), 1, atol=1e-9)
     assert np.linalg.det(r.project_to_so3(np.diag([1.0, 1.0, -1.0]))) == pytest.approx(1)
 
@@ -115,3 +116,35 @@ def test_slerp_matches_scipy_on_every_weight_and_takes_the_short_way() -> None:
 def test_yaw_is_measured_from_plus_z_towards_plus_x() -> None:
     directions = [[0, 0, 1], [1, 5, 0], [0, 0, -1], [-2, 0, 0]]
     np.testing.assert_allclose(r.yaw_angle(directions), [0, np.pi / 2, np.pi, -np.pi / 2])
+
+
+@pytest.mark.parametrize("count", [1, 24, 3000])
+@pytest.mark.parametrize("noise", [0.01, 0.1, 1.0])
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_projection_is_that_of_the_singular_value_decomposition(count: int, noise: float, dtype: type) -> None:
+    rng = np.random.default_rng(count)
+    rotations = Rotation.random(count, random_state=rng).as_matrix()
+    matrices = (rotations + rng.normal(0, noise, (count, 3, 3))).astype(dtype)
+    u, _, vt = np.linalg.svd(matrices.astype(np.float64))
+    flip = np.ones((count, 3))
+    flip[:, 2] = np.linalg.det(u @ vt)
+    found = r.project_to_so3(matrices)
+    assert found.dtype == dtype
+    well = noise < 1 or dtype is np.float64  # near to a reflection the nearest rotation is anybody's guess
+    np.testing.assert_allclose(
+        found, (u * flip[:, None]) @ vt, atol=(1e-7 if dtype is np.float32 else 1e-9) if well else 1e-4
+    )
+
+
+def test_reflections_and_singular_matrices_are_projected_too() -> None:
+    for count in (3, 500):
+        matrices = np.concatenate([np.tile(np.diag([1.0, 1.0, -1.0]), (count, 1, 1)), np.zeros((2, 3, 3))])
+        np.testing.assert_allclose(r.project_to_so3(matrices), np.tile(np.eye(3), (count + 2, 1, 1)), atol=1e-12)
+    assert r.project_to_so3(np.zeros((0, 3, 3))).shape == (0, 3, 3)
+
+
+def test_the_smallest_turn_between_opposite_directions_is_half_a_turn() -> None:
+    source = np.array([[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+    turns = r.rotation_between(source, source * np.array([[-1.0], [-1.0], [1.0]]))
+    np.testing.assert_allclose((turns @ source[..., None])[..., 0], source * [[-1.0], [-1.0], [1.0]], atol=1e-12)
+    np.testing.assert_allclose(np.linalg.det(turns), 1)

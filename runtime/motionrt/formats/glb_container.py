@@ -1,0 +1,107 @@
+"""The GLB container: one JSON document and one block of bytes, in and out  [glTF 2.0, 4.4]."""
+
+from __future__ import annotations
+
+import json
+import struct
+from pathlib import Path
+from typing import Any, BinaryIO
+
+from motionrt.errors import FormatError
+from motionrt.formats.text import require_file
+
+Json = dict[str, Any]
+
+JSON_LIMIT = 64 * 2**20
+"""Bytes of JSON that are parsed at most; a character with hundreds of animations has a few megabytes."""
+
+FILE_LIMIT = 2**31
+"""Bytes of a whole file that are read at most."""
+
+_MAGIC, _JSON, _BIN = 0x46546C67, 0x4E4F534A, 0x004E4942
+
+
+def read_container(path: Path) -> tuple[Json, bytes]:
+    """The JSON object and the binary chunk (empty if there is none) of a GLB file.
+
+    Raises:
+        MotionFileNotFoundError: there is no such file.
+        FormatError: not a whole GLB file of version 2, or larger than the limits above.
+    """
+    require_file(path)
+    try:
+        with path.open("rb") as file:
+            return _read(file, path.stat().st_size, path)
+    except OSError as error:
+        raise FormatError(path, f"cannot be read: {error.strerror or error}") from error
+
+
+def pack_container(document: Json, binary: bytes) -> bytes:
+    """The bytes of a GLB file; ``binary`` becomes the buffer that has no ``uri``."""
+    text = json.dumps(document, ensure_ascii=False, allow_nan=False, separators=(",", ":")).encode("utf-8")
+    chunks = _chunk(_JSON, text, b" ") + (_chunk(_BIN, binary, b"\0") if binary else b"")
+    return struct.pack("<III", _MAGIC, 2, 12 + len(chunks)) + chunks
+
+
+def _chunk(kind: int, content: bytes, filler: bytes) -> bytes:
+    content += filler * (-len(content) % 4)
+    return struct.pack("<II", len(content), kind) + content
+
+
+def _read(file: BinaryIO, size: int, path: Path) -> tuple[Json, bytes]:
+    head = file.read(12)
+    if len(head) < 12 or struct.unpack("<I", head[:4])[0] != _MAGIC:
+        raise FormatError(path, _not_glb(head))
+    version, length = struct.unpack("<II", head[4:])
+    if version != 2:
+        raise FormatError(path, f"is GLB version {version}; only version 2 can be read")
+    if length > size:
+        raise FormatError(path, f"the file ends after {size} of its {length} bytes: the copy is not complete")
+    if length > FILE_LIMIT:
+        raise FormatError(path, f"has {length} bytes; at most {FILE_LIMIT} are read")
+    kind, text = _next_chunk(file, 12, length, path, JSON_LIMIT)
+    if kind != _JSON:
+        raise FormatError(path, "its first chunk is not JSON")
+    at = 20 + len(text)
+    binary = b""
+    if at + 8 <= length:
+        kind, block = _next_chunk(file, at, length, path, FILE_LIMIT)
+        binary = block if kind == _BIN else b""
+    return _parse(text, path), binary
+
+
+def _next_chunk(file: BinaryIO, at: int, end: int, path: Path, limit: int) -> tuple[int, bytes]:
+    head = file.read(8)
+    if len(head) < 8:
+        raise FormatError(path, "the file ends inside the header of a chunk")
+    length, kind = struct.unpack("<II", head)
+    if at + 8 + length > end:
+        raise FormatError(path, f"a chunk of {length} bytes does not fit into the file: it is damaged")
+    if length > limit:
+        what = "JSON" if kind == _JSON else "binary data"
+        raise FormatError(path, f"holds {length} bytes of {what}; at most {limit} are read")
+    return kind, file.read(length)
+
+
+def _parse(text: bytes, path: Path) -> Json:
+    try:
+        document = json.loads(text.decode("utf-8-sig"), parse_constant=_no_constant)
+    except RecursionError:
+        raise FormatError(path, "its JSON is nested too deeply") from None
+    except ValueError as error:  # JSONDecodeError and UnicodeDecodeError
+        raise FormatError(path, f"its JSON is damaged: {error}") from error
+    if not isinstance(document, dict) or not isinstance(document.get("asset"), dict):
+        raise FormatError(path, "its JSON is not a glTF document: it has no asset")
+    if not str(document["asset"].get("version", "")).startswith("2."):
+        raise FormatError(path, "is not glTF 2; save it again as glTF 2.0 binary")
+    return document
+
+
+def _no_constant(word: str) -> float:
+    raise ValueError(f"{word} is not a JSON number")
+
+
+def _not_glb(head: bytes) -> str:
+    if head.lstrip()[:1] == b"{":
+        return "is glTF with JSON text, not GLB; save it as glTF Binary (.glb), one file with everything in it"
+    return "is not a GLB file: it does not start with 'glTF'"

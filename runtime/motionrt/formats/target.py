@@ -1,0 +1,79 @@
+"""A character's file as a target of retargeting."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+
+from motionrt.errors import FormatError, InvalidInputError, MotionRTError
+from motionrt.formats.bvh import parse_bvh
+from motionrt.formats.bvh_rig import build_rig
+from motionrt.formats.bvh_target import BvhFile
+from motionrt.formats.glb_document import open_glb
+from motionrt.formats.glb_target import GlbFile
+from motionrt.formats.leading_pose import drop_leading_tpose
+from motionrt.formats.text import require_file
+from motionrt.motion.rig import RigClip
+from motionrt.motion.rig_target import Rig
+from motionrt.motion.skeleton import FloatArray
+
+RIG_SUFFIXES = (".bvh", ".glb")
+"""What :func:`load_target` reads."""
+
+
+def load_target(path: str | Path, *, animation: int | str | None = None, skin: int | str | None = None) -> Rig:
+    """Read a character to retarget to.
+
+    Args:
+        path: a ``.bvh`` (its frames may be any; a leading T-pose is found) or a ``.glb`` (with or without animation).
+        animation: of a GLB: the one that helps where no pose of the file is a T- or A-pose; name or index.
+        skin: of a GLB with several figures: which of them; name or index.
+
+    Raises:
+        MotionFileNotFoundError: there is no such file.
+        FormatError: the file cannot be read; the message says why.
+        InvalidInputError: another suffix.
+    """
+    path = Path(path)
+    require_file(path)
+    readers: dict[str, Callable[[], Rig]] = {
+        ".bvh": lambda: _from_bvh(path),
+        ".glb": lambda: _from_glb(path, animation, skin),
+    }
+    suffix = path.suffix.lower()
+    if suffix not in readers:
+        raise InvalidInputError(f"{path}: a rig '{suffix}' cannot be a target; can be: {', '.join(RIG_SUFFIXES)}")
+    try:
+        return readers[suffix]()
+    except MotionRTError:
+        raise
+    except Exception as error:  # whatever the bytes are, nothing else may come out of a reader
+        raise FormatError(path, f"cannot be read ({type(error).__name__}: {error})") from error
+
+
+def _from_bvh(path: Path) -> Rig:
+    text = parse_bvh(path)
+    clip = build_rig(text.joints, text.values, text.fps)
+    rest, reference = drop_leading_tpose(clip)
+    movable = [len(joint.positions) == 3 for joint in text.joints]
+    return Rig(rest, _poses(rest, reference, clip.rotations[0]), movable, BvhFile(path, text, clip))
+
+
+def _from_glb(path: Path, animation: int | str | None, skin: int | str | None) -> Rig:
+    document = open_glb(path, skin)
+    still = document.clip(None)
+    tracks = None
+    if animation is not None or len(document.json.get("animations", [])) == 1:
+        tracks = document.tracks(animation)
+    clip = still if tracks is None else document.clip(tracks)
+    poses = _poses(clip, None, still.rotations[0], clip.rotations[0])
+    return Rig(clip, poses, [True] * len(clip.names), GlbFile(document))
+
+
+def _poses(clip: RigClip, *others: FloatArray | None) -> list[FloatArray]:
+    """Rest pose first, unless another pose was marked as the one to go by."""
+    known = [pose for pose in others if pose is not None]
+    poses = [clip.rest_rotations(), *known] if others[0] is None else [*known[:1], clip.rest_rotations(), *known[1:]]
+    return [np.asarray(pose, dtype=np.float32) for pose in poses]

@@ -1,0 +1,40 @@
+"""The unit of a rig whose format does not say: the usual one that makes its legs those of a person."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from motionrt.motion.rig import RigClip
+from motionrt.motion.rig_target import RigMotion
+from motionrt.motion.rotations import rotation_between
+
+_USUAL = (1.0, 0.1, 0.0254, 0.01, 0.001, 0.3048, 2.54 / 45, 0.056444)
+"""Metres per unit: metres, decimetres, inches, centimetres, millimetres, feet, and CMU's 2.54/45 m."""
+
+
+def metres_per_unit(units_per_metre: float) -> float:
+    """The usual unit nearest to that of a rig with so many units per metre of ``smpl24``."""
+    return min(_USUAL, key=lambda unit: abs(np.log(unit * units_per_metre)))
+
+
+def to_metres(motion: RigMotion) -> RigClip:
+    """The motion's clip in metres and Y up."""
+    clip, scale = motion.clip, motion.clip.metres_per_unit or metres_per_unit(motion.units_per_metre)
+    turn = rotation_between(motion.up, np.array([0.0, 1.0, 0.0]))
+    root = [joint for joint, parent in enumerate(clip.parents) if parent < 0]
+    offsets, translations = clip.offsets * scale, clip.translations * scale
+    rotations, rest = clip.rotations.copy(), clip.rest_rotations().copy()
+    for joint in root:
+        offsets[joint], translations[:, joint] = turn @ offsets[joint], translations[:, joint] @ turn.T
+        rest[joint], rotations[:, joint] = turn @ rest[joint], turn @ rotations[:, joint]
+    return replace(
+        clip,
+        offsets=offsets.astype(np.float32),
+        translations=translations.astype(np.float32),
+        rotations=rotations.astype(np.float32),
+        rest=rest.astype(np.float32),
+        up="y",
+        metres_per_unit=1.0,
+    )
