@@ -12,6 +12,7 @@ from motionrt.cli.options import add_json, add_models, command, runtime
 
 if TYPE_CHECKING:
     from motionrt.retrieval import Gallery, Hit
+    from motionrt.runtime import Runtime
 
 HELP = """find the motions of a gallery that fit a text
 Without --gallery the small starter gallery is searched that comes with motionrt."""
@@ -24,6 +25,7 @@ def add(commands: Any) -> None:
     parser.add_argument("--gallery", type=Path, metavar="DIR", help="a gallery, or the folder that was indexed")
     parser.add_argument("-k", type=int, default=10, metavar="N", help="how many hits (default: 10)")
     parser.add_argument("--windows", action="store_true", help="every 10 s window is a hit, not the best of a clip")
+    parser.add_argument("--approximate", action="store_true", help="faster on galleries of 50,000 windows and more")
     parser.add_argument("--save", type=Path, metavar="DIR", help="write the hits there as BVH")
     add_json(parser)
     add_models(parser)
@@ -33,7 +35,7 @@ def run(arguments: argparse.Namespace) -> int:
     """Print the hits, and save them when asked to."""
     opened = runtime(arguments)
     gallery = opened.gallery(arguments.gallery)
-    hits = opened.retrieve(arguments.text, arguments.k, gallery, per_clip=not arguments.windows)
+    hits = _hits(opened, gallery, arguments)
     if arguments.json:
         print_json([as_json(hit) for hit in hits])
     else:
@@ -41,6 +43,15 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.save is not None:
         _save(hits, gallery, arguments.save)
     return 0
+
+
+def _hits(opened: Runtime, gallery: Gallery, arguments: argparse.Namespace) -> list[Hit]:
+    per_clip = not arguments.windows
+    if not arguments.approximate:
+        return opened.retrieve(arguments.text, arguments.k, gallery, per_clip=per_clip)
+    gallery.check_model(opened.model.fingerprint, opened.model.name)
+    query = opened.embed_text(arguments.text)
+    return gallery.search(query, arguments.k, per_clip=per_clip, approximate=True)
 
 
 def as_json(hit: Hit) -> dict[str, object]:

@@ -1,15 +1,35 @@
 """Search a motion library: galleries, text to motion, motion to text, moments."""
 
-from motionrt.retrieval.assembly import BuildReport, Progress
-from motionrt.retrieval.build import build_gallery, update_gallery
-from motionrt.retrieval.captions import EmbeddedCaptions, checked_captions, read_captions
-from motionrt.retrieval.describe import Description, describe
-from motionrt.retrieval.gallery import Gallery
-from motionrt.retrieval.moments import WINDOW_LENGTHS, Moment, Moments, find_moments
-from motionrt.retrieval.records import Clip, Skipped
-from motionrt.retrieval.search import ExactIndex, Hit, VectorIndex
-from motionrt.retrieval.store import GALLERY_FILE, locate
-from motionrt.retrieval.windows import embed_whole, motion_features, window_spans
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from motionrt._lazy import lazily
+
+if TYPE_CHECKING:
+    from motionrt.retrieval.assembly import BuildReport, Progress
+    from motionrt.retrieval.build import build_gallery, update_gallery
+    from motionrt.retrieval.captions import EmbeddedCaptions, checked_captions, read_captions
+    from motionrt.retrieval.describing import Description, describe
+    from motionrt.retrieval.gallery import Gallery
+    from motionrt.retrieval.moments import WINDOW_LENGTHS, Moment, Moments, find_moments
+    from motionrt.retrieval.records import Clip, Skipped
+    from motionrt.retrieval.search import ExactIndex, Hit, VectorIndex
+    from motionrt.retrieval.store import GALLERY_FILE, locate
+    from motionrt.retrieval.windows import embed_whole, motion_features, window_spans
+
+_HOMES = {
+    "assembly": ("BuildReport", "Progress"),
+    "build": ("build_gallery", "update_gallery"),
+    "captions": ("EmbeddedCaptions", "checked_captions", "read_captions"),
+    "describing": ("Description", "describe"),
+    "gallery": ("Gallery",),
+    "moments": ("WINDOW_LENGTHS", "Moment", "Moments", "find_moments"),
+    "records": ("Clip", "Skipped"),
+    "search": ("ExactIndex", "Hit", "VectorIndex"),
+    "store": ("GALLERY_FILE", "locate"),
+    "windows": ("embed_whole", "motion_features", "window_spans"),
+}
 
 __all__ = [
     "GALLERY_FILE",
@@ -37,3 +57,5 @@ __all__ = [
     "update_gallery",
     "window_spans",
 ]
+
+__getattr__ = lazily(__name__, _HOMES)

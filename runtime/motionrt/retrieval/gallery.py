@@ -6,19 +6,22 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from motionrt.errors import FormatError, GalleryError, InvalidInputError
-from motionrt.formats import load_motion
 from motionrt.formats.motion_pack import MotionPack
 from motionrt.motion import Motion
 from motionrt.motion.skeleton import FloatArray
 from motionrt.retrieval import layout, store
 from motionrt.retrieval.locking import writing
 from motionrt.retrieval.records import Clip, ModelStamp, Skipped, WindowTable, window_table
-from motionrt.retrieval.search import ExactIndex, Hit, VectorIndex, checked_k, nearest_per_group
+from motionrt.retrieval.search import ExactIndex, Hit, checked_k, nearest_per_group
 from motionrt.retrieval.windows import MotionEmbedder, embed_windows, motion_features, spans_in_seconds
+
+if TYPE_CHECKING:
+    from motionrt.retrieval.approximate import ApproximateIndex
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,6 +38,7 @@ class Gallery:
         mapping: the joint mapping that the files were read with, if any.
         motions: the clips themselves, or the file that holds them, when the gallery carries them.
         folder: where the gallery was opened or saved, ``None`` for one in memory.
+        neighbours: where the index of approximate search is kept, ``None`` for a gallery in memory.
     """
 
     clips: tuple[Clip, ...]
@@ -46,6 +50,7 @@ class Gallery:
     mapping: Mapping[str, str] | None = None
     motions: MotionPack | Path | None = None
     folder: Path | None = None
+    neighbours: Path | None = None
 
     def __len__(self) -> int:
         return len(self.clips)
@@ -123,23 +128,43 @@ class Gallery:
             f"({fingerprint[:12]}); build it again: {self._build_command()}"
         )
 
-    def search(self, query: FloatArray, k: int = 10, *, per_clip: bool = True) -> list[Hit]:
-        """The ``min(k, N)`` best hits for a unit vector ``(256,)``, exact, best first.
+    def search(self, query: FloatArray, k: int = 10, *, per_clip: bool = True, approximate: bool = False) -> list[Hit]:
+        """The ``min(k, N)`` best hits for a unit vector ``(256,)``, best first, exact unless told otherwise.
 
         Args:
             query: an embedding by the gallery's model (:meth:`check_model`).
             k: how many, at least 1.
             per_clip: only the best window of every clip; otherwise every window is a hit of its own.
+            approximate: look only where the best are likely, which pays in galleries of hundreds of thousands of
+                windows (a smaller one is searched exactly). The index for it is built at the first such search, or by
+                :meth:`prepare`, and kept beside the gallery. The scores are exact.
+
+        Raises:
+            InvalidInputError: a query of another shape or not finite, or a bad ``k``.
+            MissingDependencyError: ``approximate`` without the package that it needs.
         """
         k = checked_k(k)
         query = np.asarray(query, dtype=np.float32)
         if query.shape != self.embeddings.shape[1:]:
             raise InvalidInputError(f"a query is a vector of {self.embeddings.shape[1]}, not {query.shape}")
+        index = self._approximate if approximate else self._exact
         if per_clip:
-            found, scores = nearest_per_group(self._index, query, k, self.windows["clip"])
+            found, scores = nearest_per_group(index, query, k, self.windows["clip"])
         else:
-            found, scores = self._index.nearest(query, k)
+            found, scores = index.nearest(query, k)
         return [self._hit(rank, int(i), float(s)) for rank, (i, s) in enumerate(zip(found, scores, strict=True), 1)]
+
+    def prepare(self, *, approximate: bool = False) -> Gallery:
+        """Get ready for many searches now, so that none of them waits; gives the gallery itself.
+
+        Exact search is made faster by a copy in 8 bits a number (some 2 s for a million windows), approximate search
+        needs its index (minutes for a million windows, once).
+
+        Raises:
+            MissingDependencyError: ``approximate`` without the package that it needs.
+        """
+        (self._approximate if approximate else self._exact).prepare()
+        return self
 
     def path(self, clip: Clip) -> Path | None:
         """The clip's file, ``None`` when it has none."""
@@ -170,6 +195,8 @@ class Gallery:
         path = self.path(clip)
         if path is None:
             raise GalleryError(f"the motion of '{clip.id}' is not in the gallery, only its embedding")
+        from motionrt.formats import load_motion  # its readers are slow to import
+
         return load_motion(path, mapping=self.mapping)
 
     def _hit(self, rank: int, window: int, score: float) -> Hit:
@@ -189,8 +216,14 @@ class Gallery:
             raise store.damaged(error.path, error.reason) from error
 
     @cached_property
-    def _index(self) -> VectorIndex:
+    def _exact(self) -> ExactIndex:
         return ExactIndex(self.embeddings)
+
+    @cached_property
+    def _approximate(self) -> ApproximateIndex:
+        from motionrt.retrieval.approximate import ApproximateIndex
+
+        return ApproximateIndex(self.embeddings, self._exact, self.neighbours)
 
     @cached_property
     def _numbers(self) -> dict[str, int]:

@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-import multiprocessing
 import signal
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures import ProcessPoolExecutor
-from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -85,9 +82,16 @@ def index_files(
     if processes <= 1:
         yield from (index_file(job, model) for job in jobs)
         return
-    pool = ProcessPoolExecutor(
-        processes, multiprocessing.get_context("spawn"), initializer=_start_process, initargs=(open_model,)
-    )
+    yield from _in_processes(jobs, open_model, processes)
+
+
+def _in_processes(jobs: Sequence[FileJob], open_model: OpenModel, processes: int) -> Iterator[Outcome]:
+    import multiprocessing  # slow to import, and seldom needed
+    from concurrent.futures import ProcessPoolExecutor
+    from concurrent.futures.process import BrokenProcessPool
+
+    spawning = multiprocessing.get_context("spawn")
+    pool = ProcessPoolExecutor(processes, spawning, initializer=_start_process, initargs=(open_model,))
     try:
         yield from pool.map(_index_in_process, jobs)
     except BrokenProcessPool as error:

@@ -64,6 +64,7 @@ def _read(kind: type[Gallery], folder: Path, head: dict[str, Any]) -> Gallery:
         mapping=head["mapping"],
         motions=folder / files["motions"] if "motions" in files else None,
         folder=folder,
+        neighbours=folder / store.neighbours_name(files["embeddings"]),
     )
 
 

@@ -23,7 +23,8 @@ GALLERY_FILE = "gallery.json"
 DEFAULT_FOLDER = ".motionrt-gallery"
 FORMAT, VERSION = "motionrt-gallery", 1
 _ARRAY_FILE = re.compile(r"(embeddings|windows|motions)-[0-9a-f]{16}\.np[yz]")
-_TEMPORARY = ".writing-"
+_NEIGHBOURS = re.compile(r"neighbours-[0-9a-f]{16}\.faiss")
+TEMPORARY = ".writing-"
 
 Writer = Callable[[IO[bytes]], None]
 
@@ -81,7 +82,16 @@ def write(folder: Path, head: dict[str, Any], arrays: dict[str, tuple[str, Write
         _replace(folder, GALLERY_FILE, lambda file: _discard(file.write(text.encode("ascii"))))
     except OSError as error:
         raise GalleryError(f"cannot write the gallery to {folder}: {error.strerror}") from error
-    _remove_stale(folder, set(files.values()))
+    kept = set(files.values())
+    _remove_stale(folder, kept | {neighbours_name(name) for name in kept})
+
+
+def neighbours_name(embeddings: str) -> str:
+    """Name of the file that may keep the graph of neighbours of the embeddings in the file of that name.
+
+    It carries their checksum, so it is never taken for that of others; it is made when first asked for.
+    """
+    return f"neighbours-{embeddings.partition('-')[2].partition('.')[0]}.faiss"
 
 
 def digest(path: Path) -> str:
@@ -125,7 +135,7 @@ def _replace(folder: Path, name: str, writer: Writer) -> None:
 
 
 def _write_temporary(folder: Path, name: str, writer: Writer) -> Path:
-    path = folder / f"{_TEMPORARY}{name}"
+    path = folder / f"{TEMPORARY}{name}"
     with path.open("wb") as file:
         writer(file)
         file.flush()
@@ -135,8 +145,9 @@ def _write_temporary(folder: Path, name: str, writer: Writer) -> Path:
 
 def _remove_stale(folder: Path, keep: set[str]) -> None:
     for path in folder.iterdir():
-        stale = _ARRAY_FILE.fullmatch(path.name) and path.name not in keep
-        if stale or path.name.startswith(_TEMPORARY):
+        ours = _ARRAY_FILE.fullmatch(path.name) or _NEIGHBOURS.fullmatch(path.name)
+        stale = ours and path.name not in keep
+        if stale or path.name.startswith(TEMPORARY):
             try:
                 path.unlink()
             except OSError:  # mapped by a reader, on Windows: the next writer removes it

@@ -1,0 +1,161 @@
+"""A first pass over a large gallery in 8 bits, which leaves few vectors to compare, and provably the right ones.
+
+The scan reads a quarter of the bytes, and memory is what a scan waits for; in a library whose embeddings keep to few
+directions (:mod:`~motionrt.retrieval.narrow`) it reads a sixteenth. No float32 score is above the scan's by more than a
+known error (:meth:`~motionrt.retrieval.codes.Codes.error`). So with the float32 scores of any k vectors at hand, the
+worst of them F, a vector that the scan puts below F - error scores less than each of the k: it is not among the k
+best, and does not tie with them. What remains, some dozens to hundreds, is compared in float32.
+"""
+
+from __future__ import annotations
+
+import mmap
+import sys
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from motionrt.models.sessions import quiet_options
+from motionrt.motion.skeleton import FloatArray
+from motionrt.retrieval.codes import LEVELS, ZERO, ByteArray, CodedQuery, Codes, code_query, code_rows, padded
+from motionrt.retrieval.narrow import Directions
+from motionrt.retrieval.scan_graph import scan_model
+from motionrt.retrieval.search import IntArray, scores
+
+if TYPE_CHECKING:
+    from onnxruntime import InferenceSession
+
+MAX_WIDTH = 256  # one block of the scan's product
+NARROW_FROM = 50_000  # below, the directions save less than a tenth of a millisecond
+_MAX_COLUMNS, _ROWS = 4096, 16
+
+
+class CodedScan:
+    """The 8-bit copy of a set of vectors; :meth:`build` makes it. May be used from several threads."""
+
+    def __init__(self, vectors: FloatArray, directions: Directions | None) -> None:
+        self._vectors = vectors
+        self._directions = directions
+        self._width = padded(vectors.shape[1] if directions is None else directions.width)
+
+    @classmethod
+    def build(cls, vectors: FloatArray) -> CodedScan | None:
+        """Code ``vectors`` ``(N, d)``, C-ordered float32; None where that cannot work, and float32 has to do.
+
+        That is: more than 256 numbers a vector, numbers not finite or of extreme size, or a machine whose 8-bit
+        product is not exact.
+        """
+        if vectors.size == 0:
+            return None
+        made = cls(vectors, Directions.of(vectors) if len(vectors) >= NARROW_FROM else None)
+        return made if made._width <= MAX_WIDTH and _is_exact(made._width) and made._code() else None
+
+    @property
+    def width(self) -> int:
+        """Bytes that are read of every vector."""
+        return self._width
+
+    def candidates(self, query: FloatArray, k: int) -> IntArray | None:
+        """Ascending indices, all of the k best and all that tie with them among them; None when too many remain."""
+        exact = query.astype(np.float64)
+        coded = code_query(exact if self._directions is None else self._directions.query(exact))
+        count = len(self._vectors)
+        columns = min(_MAX_COLUMNS, count // _ROWS)
+        if coded is None or k > columns:
+            return None
+        scanned = _run(self._session, coded.numbers)
+        rows = count // columns
+        table = scanned[: rows * columns].reshape(rows, columns)
+        tops = table.max(axis=0)
+        least = _below((self._score_of_kth(table, tops, query, k) - self._error(coded)) / coded.step)
+        found = _at_least(table, tops, least)
+        rest = np.flatnonzero(scanned[rows * columns :] >= least) + rows * columns
+        return np.concatenate([found, rest]) if 4 * len(found) < count else None
+
+    def _error(self, query: CodedQuery) -> float:
+        """How far a vector's float32 score can be above the scan's, which is ``step`` times what it gives."""
+        error = self._codes.error(query)
+        if self._directions is None:
+            return error
+        return error + self._directions.rounding(query.length, 1.01 * self._codes.longest)
+
+    def _score_of_kth(self, table: FloatArray, tops: FloatArray, query: FloatArray, k: int) -> float:
+        """The worst float32 score of k different vectors: those on top of the k best columns."""
+        columns = np.argpartition(tops, len(tops) - k)[len(tops) - k :]
+        vectors = table[:, columns].argmax(axis=0) * len(tops) + columns
+        return float(scores(self._vectors[vectors], query).min())
+
+    def _code(self) -> bool:
+        """Make the codes and the session that scans them; False when the vectors have no codes.
+
+        The codes' memory is given back where the session made a copy of its own, as it does to arrange them.
+        """
+        store = _memory(len(self._vectors) * self._width)
+        self._memory = np.frombuffer(store, dtype=np.uint8).reshape(-1, self._width)  # the session may read it
+        codes = self._coded()
+        if codes is None:
+            return False
+        self._codes = codes
+        self._session = _open(self._memory, codes.scales)
+        if sys.platform != "linux":  # elsewhere the pages stay
+            return True
+        probe = np.full((1, self._width), LEVELS, dtype=np.float32)
+        before = _run(self._session, probe)
+        store.madvise(mmap.MADV_DONTNEED)
+        if not np.array_equal(before, _run(self._session, probe)):
+            self._coded()
+        return True
+
+    def _coded(self) -> Codes | None:
+        return code_rows(self._vectors, self._memory, self._directions.rows if self._directions is not None else None)
+
+
+def _memory(size: int) -> mmap.mmap:
+    """Memory that can be given back while arrays still point to it; it reads as zeros then."""
+    if sys.platform == "linux":
+        return mmap.mmap(-1, size, flags=mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS)
+    return mmap.mmap(-1, size)
+
+
+def _at_least(table: FloatArray, tops: FloatArray, least: np.float32) -> IntArray:
+    columns = np.flatnonzero(tops >= least)
+    row, place = np.nonzero(table[:, columns] >= least)
+    return row * len(tops) + columns[place]
+
+
+def _below(value: float) -> np.float32:
+    below: np.float32 = np.nextafter(np.float32(value), np.float32(-np.inf))
+    return below
+
+
+def _open(codes: ByteArray, scales: FloatArray) -> InferenceSession:
+    import onnxruntime
+
+    rows, width = codes.shape
+    options = quiet_options(threads=1)  # a second one waits for the same memory
+    values = [onnxruntime.OrtValue.ortvalue_from_numpy(array) for array in (codes.reshape(rows, 1, width), scales)]
+    options.add_external_initializers(["codes", "scales"], values)
+    return onnxruntime.InferenceSession(scan_model(rows, width), options, providers=["CPUExecutionProvider"])
+
+
+def _run(session: InferenceSession, numbers: FloatArray) -> FloatArray:
+    result: FloatArray = session.run(None, {"query": numbers})[0][0]
+    return result
+
+
+def _is_exact(width: int) -> bool:
+    """Whether this machine's 8-bit product is exact where its sums are largest, which is where some saturate.
+
+    All sums are below 2^24, so float32 holds them, whatever the order.
+    """
+    random = np.random.default_rng(0)
+    codes = random.integers(1, 256, (67, width), dtype=np.uint8)
+    codes[0], codes[1], codes[2, ::2], codes[3, 1::2] = 255, 1, 255, 1
+    signs = np.where(np.arange(width) % np.array([[1], [2], [3]]) == 0, LEVELS, -LEVELS)
+    mixed = np.clip(random.integers(-400, 400, (2, width)), -LEVELS, LEVELS)
+    session = _open(codes, np.ones(len(codes), dtype=np.float32))
+    for query in np.concatenate([signs, mixed]):
+        exact = (codes.astype(np.int64) - ZERO) @ query
+        if not np.array_equal(_run(session, query[None].astype(np.float32)), exact):
+            return False
+    return True
