@@ -19,6 +19,9 @@ class WalkTo:
     Attributes:
         x, z: metres.
         heading: radians from +Z towards +X to face at the end; by default the way it came.
+
+    Raises:
+        InvalidInputError: a number that is not finite.
     """
 
     x: float

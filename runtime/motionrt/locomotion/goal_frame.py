@@ -26,6 +26,9 @@ class Goal:
     Attributes:
         x, z: metres on the ground plane.
         heading: yaw in radians from +Z towards +X.
+
+    Raises:
+        InvalidInputError: a number that is not finite.
     """
 
     x: float

@@ -108,7 +108,7 @@ class Performance:
         )
 
     def save(self, path: str | FilePath) -> FilePath:
-        """Write the motion (.bvh, .npz); returns the path."""
+        """Write the motion (.bvh, .glb, .npz); returns the path."""
         return self.motion.save(path)
 
 

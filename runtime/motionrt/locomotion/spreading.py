@@ -10,11 +10,11 @@ from motionrt.locomotion.walking import NextFrame
 from motionrt.models.threads import thread_count
 from motionrt.motion.skeleton import FloatArray
 
-PIECE = 8  # characters in one call of the model; more in one call are no cheaper
+FEWEST = 4  # characters that are worth a thread of their own
 
 
 class Spread:
-    """A model of next frames that shares its batches out among threads.
+    """A model of next frames that shares its batches out among threads, one of which is the caller's.
 
     Args:
         model: predicts next frames, and may be called by several threads at once, as an onnxruntime session may. Open
@@ -27,17 +27,18 @@ class Spread:
 
     def __init__(self, model: NextFrame, threads: int | None = None) -> None:
         self.model, self.threads = model, thread_count(threads)
-        self._pool = ThreadPoolExecutor(self.threads, thread_name_prefix="motionrt-walk")
+        self._pool = ThreadPoolExecutor(max(1, self.threads - 1), thread_name_prefix="motionrt-walk")
 
     def __call__(self, frames: FloatArray, speed: FloatArray) -> FloatArray:
         """Next frames ``(B, 219)``, as the model gives them; see :data:`motionrt.locomotion.walking.NextFrame`."""
-        count = min(len(frames), pieces(len(frames), self.threads))
+        count = pieces(len(frames), self.threads)
         if count <= 1:
             return self.model(frames, speed)
-        parts = zip(np.array_split(frames, count), np.array_split(speed, count), strict=True)
-        return np.concatenate(list(self._pool.map(lambda part: self.model(*part), parts)))
+        (first, *others) = zip(np.array_split(frames, count), np.array_split(speed, count), strict=True)
+        elsewhere = [self._pool.submit(self.model, *part) for part in others]
+        return np.concatenate([self.model(*first), *(part.result() for part in elsewhere)])
 
 
 def pieces(characters: int, threads: int) -> int:
-    """In how many pieces of at most 8 a batch is cut so that every thread has as many."""
-    return -(-characters // (PIECE * threads)) * threads
+    """In how many pieces a batch is cut: one for every thread, as long as each has 4 characters."""
+    return max(1, min(threads, characters // FEWEST))

@@ -9,12 +9,14 @@ import numpy as np
 import numpy.typing as npt
 
 from motionrt.errors import InvalidInputError
-from motionrt.locomotion.goal_frame import Goal, canonicalise, frames_from_goal, frames_to_goal, uncanonicalise
+from motionrt.locomotion.bearings import joined
+from motionrt.locomotion.goal_frame import Goal, frames_from_goal, frames_to_goal
+from motionrt.locomotion.walking import to_motion
 from motionrt.models.transnet import SEED, WINDOW
 from motionrt.motion import Motion
 from motionrt.motion.features import ccf219
 from motionrt.motion.foot_lock import lock_feet
-from motionrt.motion.rotations import axis_angle_to_matrix, matrix_to_axis_angle
+from motionrt.motion.rotations import axis_angle_to_matrix, axis_rotation, matrix_to_axis_angle, project_to_so3
 from motionrt.motion.skeleton import FloatArray
 from motionrt.motion.transforms import heading
 
@@ -36,7 +38,13 @@ def goal_of(pose: Motion) -> Goal:
 
 def placed(pose: Motion, goal: Goal) -> Motion:
     """``pose`` moved over the ground and turned so that its first frame stands at ``goal``; heights stay."""
-    return uncanonicalise(canonicalise(pose, goal_of(pose)), goal)
+    own = goal_of(pose)
+    about = np.array([own.x, 0, own.z], dtype=np.float32)
+    turn = axis_rotation("Y", np.float32(goal.heading - own.heading)).astype(np.float32)
+    rotations = pose.rotations.copy()
+    rotations[:, 0] = turn @ rotations[:, 0]
+    root = (pose.root - about) @ turn.T + np.array([goal.x, 0, goal.z])
+    return replace(pose, rotations=rotations, root=root.astype(np.float32))
 
 
 def transition(
@@ -67,16 +75,24 @@ def transition(
     """
     aim = placed(_checked(target, "target"), goal) if goal is not None else _checked(target, "target")
     tail = _tail(aim, held)
-    place = np.array([goal_of(tail[tail.frames - 1 :]).row()])
-    known = np.concatenate([_seed_frames(seed), ccf219.encode(tail)])
-    hidden = np.arange(WINDOW) >= SEED
-    hidden[WINDOW - tail.frames :] = False
-    frames = np.zeros((1, WINDOW, ccf219.WIDTH))
-    frames[:, ~hidden] = frames_to_goal(known[None], place)
-    found = frames_from_goal(model(frames.astype(np.float32), hidden[None]), place)[0].astype(np.float32)
-    found[~hidden] = known
-    window = _exact(ccf219.decode(found), tail, seed)
-    return (locked(window) if foot_lock else window)[SEED:]
+    place = goal if goal is not None and aim.frames == 1 else goal_of(aim[aim.frames - 1 :])
+    filled = to_motion(np.concatenate([_filled(model, seed, tail, place), tail]))
+    return locked(joined([_seed_of(seed), filled]))[SEED:] if foot_lock else filled
+
+
+def _filled(model: Infill, seed: Motion, tail: FloatArray, place: Goal) -> FloatArray:
+    """The frames between seed and tail, which the model sees from where the last frame of the tail stands."""
+    known = np.concatenate([_seed_frames(seed), tail])
+    gap, row = WINDOW - len(known), np.array([place.row()])
+    seen = frames_to_goal(known[None], row)
+    frames = np.zeros((1, WINDOW, ccf219.WIDTH), np.float32)
+    frames[:, :SEED], frames[:, SEED + gap :] = seen[:, :SEED], seen[:, SEED:]
+    hidden = np.zeros((1, WINDOW), bool)
+    hidden[:, SEED : SEED + gap] = True
+    answer = model(frames, hidden)[:, SEED : SEED + gap]
+    found: FloatArray = frames_from_goal(answer, row)[0].astype(np.float32)
+    found[:, ccf219.ROTATIONS] = project_to_so3(found[:, ccf219.ROTATIONS].reshape(-1, 3, 3)).reshape(gap, -1)
+    return found
 
 
 def distance(before: float, after: float) -> float:
@@ -125,32 +141,28 @@ def locked(window: Motion) -> Motion:
 
 
 def _seed_frames(seed: Motion) -> FloatArray:
-    frames = ccf219.encode(_checked(seed, "seed"))[-SEED:]
-    return np.pad(frames, ((SEED - len(frames), 0), (0, 0)), mode="edge")
+    frames = ccf219.encode(_checked(seed, "seed")[-SEED:])
+    short = SEED - len(frames)
+    return np.concatenate([np.repeat(frames[:1], short, axis=0), frames]) if short else frames
 
 
-def _tail(aim: Motion, held: bool) -> Motion:
+def _seed_of(seed: Motion) -> Motion:
+    """The last 60 frames, the first of them held before where there are fewer."""
+    frames = np.maximum(np.arange(-SEED, 0), -seed.frames)
+    return replace(seed, rotations=seed.rotations[frames], root=seed.root[frames])
+
+
+def _tail(aim: Motion, held: bool) -> FloatArray:
     """The visible frames at the end of the window."""
     if aim.frames > LONGEST:
         raise InvalidInputError(
             f"target must be a pose or up to {LONGEST} frames, not {aim.frames}: take target[:{LONGEST}]"
         )
-    if not held:
-        return aim
-    times = [aim.frames - 1] * SETTLE
-    return replace(aim, rotations=aim.rotations[times], root=aim.root[times])
+    rows = ccf219.encode(aim)
+    return np.repeat(rows[-1:], SETTLE, axis=0) if held else rows
 
 
 def _checked(motion: Motion, name: str) -> Motion:
     if abs(motion.fps - FPS) > 1e-6:
         raise InvalidInputError(f"{name} must be at {FPS:g} fps, not {motion.fps:g}: call .resample({FPS:g}) first")
     return motion
-
-
-def _exact(window: Motion, tail: Motion, seed: Motion) -> Motion:
-    """The window with its visible frames as they were given, to the last bit."""
-    rotations, root = window.rotations.copy(), window.root.copy()
-    known = min(seed.frames, SEED)
-    rotations[SEED - known : SEED], root[SEED - known : SEED] = seed.rotations[-known:], seed.root[-known:]
-    rotations[-tail.frames :], root[-tail.frames :] = tail.rotations, tail.root
-    return replace(window, rotations=rotations.astype(np.float32), root=root)

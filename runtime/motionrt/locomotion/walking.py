@@ -92,7 +92,7 @@ def history_of(motion: Motion) -> FloatArray:
     Raises:
         InvalidInputError: another frame rate than 30 fps.
     """
-    frames = ccf219.encode(at_30_fps(motion))[-HISTORY:]
+    frames = ccf219.encode(at_30_fps(motion)[-HISTORY:])
     return np.pad(frames, ((HISTORY - len(frames), 0), (0, 0)), mode="edge")
 
 
@@ -108,8 +108,8 @@ def to_motion(frames: Array) -> Motion:
     return Motion(frames[:, ccf219.ROTATIONS].reshape(len(frames), -1, 3, 3), frames[:, ccf219.ROOT], FPS)
 
 
-def _on_so3(frames: FloatArray) -> npt.NDArray[np.float64]:
+def _on_so3(frames: FloatArray) -> FloatArray:
     """(B, 219) with every matrix replaced by the nearest rotation."""
-    out = frames.astype(np.float64)
+    out = np.array(frames, dtype=np.float32)
     out[:, ccf219.ROTATIONS] = project_to_so3(out[:, ccf219.ROTATIONS].reshape(-1, 3, 3)).reshape(len(frames), -1)
     return out

@@ -29,13 +29,13 @@ def test_two_threads_work_at_the_same_time() -> None:
         both.wait()  # goes on only when another call of the model waits here, too
         return double(frames, speed)
 
-    assert Spread(meet, threads=2)(np.zeros((4, 30, 219)), np.ones(4)).shape == (4, 219)
+    assert Spread(meet, threads=2)(np.zeros((8, 30, 219)), np.ones(8)).shape == (8, 219)
 
 
 @pytest.mark.parametrize(
-    ("characters", "threads", "expected"), [(1, 2, 2), (8, 1, 1), (9, 1, 2), (16, 2, 2), (17, 2, 4), (64, 2, 8)]
+    ("characters", "threads", "expected"), [(1, 2, 1), (7, 2, 1), (8, 1, 1), (8, 2, 2), (9, 4, 2), (64, 2, 2)]
 )
-def test_pieces_hold_eight_at_most_and_every_thread_has_as_many(characters: int, threads: int, expected: int) -> None:
+def test_every_thread_has_one_piece_of_four_at_least(characters: int, threads: int, expected: int) -> None:
     assert pieces(characters, threads) == expected
 
 
@@ -44,7 +44,7 @@ def test_errors_of_the_model_reach_the_caller() -> None:
         raise InvalidInputError("not like this")
 
     with pytest.raises(InvalidInputError, match="not like this"):
-        Spread(broken, threads=2)(np.zeros((4, 30, 219)), np.ones(4))
+        Spread(broken, threads=2)(np.zeros((8, 30, 219)), np.ones(8))
 
 
 def test_a_number_of_threads_that_is_none_is_refused() -> None:

@@ -80,18 +80,24 @@ def test_the_model_fills_hidden_frames_of_any_number_of_windows(tiny: Transition
     rng = np.random.default_rng(0)
     frames = rng.normal(size=(batch, WINDOW, 219)).astype(np.float32)
     hidden = np.zeros((batch, WINDOW), bool)
-    hidden[:, 1:-1] = rng.random((batch, WINDOW - 2)) < 0.5
+    for row, frame in zip(hidden, (WINDOW - 1, SEED + 1, SEED), strict=False):
+        row[SEED:frame] = True
     np.testing.assert_array_equal(tiny(frames, hidden), stays(frames, hidden))
 
 
-def test_windows_of_another_shape_or_with_a_hidden_end_are_refused(tiny: TransitionModel) -> None:
+def test_windows_of_another_shape_or_with_another_gap_are_refused(tiny: TransitionModel) -> None:
     frames, hidden = np.zeros((2, WINDOW, 219), np.float32), np.zeros((2, WINDOW), bool)
     with pytest.raises(InvalidInputError, match="shapes"):
         tiny(frames[:, 1:], hidden[:, 1:])
     with pytest.raises(InvalidInputError, match="shapes"):
         tiny(frames, hidden[:1])
-    hidden[1, -1] = True
-    with pytest.raises(InvalidInputError, match="must be visible"):
+    for gap in (slice(SEED, WINDOW), slice(SEED - 1, 90), slice(SEED + 1, 90)):
+        wrong = hidden.copy()
+        wrong[1, gap] = True
+        with pytest.raises(InvalidInputError, match="one gap, from frame 60 on"):
+            tiny(frames, wrong)
+    hidden[1, SEED:80] = hidden[1, 90:100] = True
+    with pytest.raises(InvalidInputError, match="one gap"):
         tiny(frames, hidden)
 
 

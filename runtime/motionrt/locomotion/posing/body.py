@@ -26,7 +26,7 @@ class Prior(Protocol):
 
     @property
     def starts(self) -> tuple[FloatArray, FloatArray]:
-        """Latents ``(S, latent)`` and rotations ``(S, 24, 3, 3)`` that a search may begin at."""
+        """Latents ``(S, latent)`` and joints ``(S, 24, 3)`` about the pelvis that a search may begin at."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,11 +41,10 @@ class Bodies:
         return turned(self.positions, yaw) + root[:, None]
 
 
-def bodies(latents: npt.NDArray[np.floating], rotations: FloatArray) -> Bodies:
-    """The bodies of decoded rotations ``(B, 24, 3, 3)``."""
+def positions(rotations: FloatArray) -> Rows:
+    """Joints ``(B, 24, 3)`` of decoded rotations ``(B, 24, 3, 3)``, the pelvis at the origin; float64."""
     origin = np.zeros((len(rotations), 3), rotations.dtype)
-    positions, _ = fk(rotations, origin, SMPL24.offsets, SMPL24.parents)
-    return Bodies(latents.astype(np.float64), positions.astype(np.float64))
+    return fk(rotations, origin, SMPL24.offsets, SMPL24.parents)[0].astype(np.float64)
 
 
 def turned(points: Rows, yaw: Rows) -> Rows:

@@ -6,12 +6,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from motionrt.locomotion.posing.body import Bodies, Prior, Rows, bodies
+from motionrt.locomotion.posing.body import Prior, Rows, positions, turned
+from motionrt.locomotion.posing.damped import least_squares
 from motionrt.locomotion.posing.objective import Objective
 from motionrt.locomotion.posing.starting import Start
 
 STEP = 0.01  # of a latent, for the finite differences: large against float32 noise, small against the decoder's bends
 SHIFT = 1e-4  # of the root (metres) and the yaw (radians)
+PLACE = 4  # unknowns that say where the body is: root and yaw
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,53 +32,21 @@ class Search:
 
     def __init__(self, prior: Prior, objective: Objective) -> None:
         self.prior, self.objective, self.size = prior, objective, prior.latent
-        self._steps = np.concatenate([np.zeros((1, self.size)), STEP * np.eye(self.size)])
-        self._at: Rows | None = None
-        self._jacobian: Rows = np.empty((0, 0))
+        steps = np.concatenate([np.full(self.size, STEP), np.full(PLACE, SHIFT)])
+        self._moves = np.concatenate([np.zeros((1, len(steps))), np.diag(steps)])
+        self._rates = 1 / steps
 
-    def residuals(self, x: Rows) -> Rows:
-        """Residuals ``(M,)`` of the unknowns ``(latent + 4,)``; keeps what :meth:`jacobian` needs."""
-        rows, self._jacobian = self._both(x)
-        self._at = x.copy()
-        return rows
-
-    def jacobian(self, x: Rows) -> Rows:
-        """Derivatives ``(M, latent + 4)`` of :meth:`residuals`."""
-        if self._at is None or not np.array_equal(x, self._at):
-            self.residuals(x)
-        return self._jacobian
+    def residuals(self, x: Rows) -> tuple[Rows, Rows]:
+        """Residuals ``(M,)`` of the unknowns ``(latent + 4,)``, and their derivatives ``(M, latent + 4)``."""
+        moved = x + self._moves
+        latents, root, yaw = moved[:, : self.size], moved[:, self.size : -1], moved[:, -1]
+        decoded = 1 + self.size  # root and yaw move the first body: no decoding needed
+        found = positions(self.prior.decode(latents[:decoded]))
+        found = np.concatenate([found, np.broadcast_to(found[:1], (PLACE, *found.shape[1:]))])
+        rows = self.objective.rows(latents, turned(found, yaw) + root[:, None], yaw)
+        return rows[0], (rows[1:] - rows[0]).T * self._rates
 
     def run(self, start: Start, evaluations: int) -> Found:
         """The optimum that the search reaches from ``start``."""
-        from scipy.optimize import least_squares
-
-        result = least_squares(
-            self.residuals,
-            start.vector(),
-            jac=self.jacobian,
-            method="lm",
-            ftol=1e-3,
-            xtol=1e-3,
-            gtol=1e-6,
-            max_nfev=evaluations,
-        )
-        x = result.x
-        return Found(x[: self.size], x[self.size : -1], float(x[-1]), float(result.cost), int(result.nfev))
-
-    def _both(self, x: Rows) -> tuple[Rows, Rows]:
-        latents = x[: self.size] + self._steps
-        decoded = bodies(latents, self.prior.decode(latents))
-        rows = self._rows(decoded, x[None, self.size : -1], x[-1:])
-        by_latent = (rows[1:] - rows[0]) / STEP
-        return rows[0], np.concatenate([by_latent, self._by_place(decoded, x, rows[0])]).T
-
-    def _by_place(self, decoded: Bodies, x: Rows, rows: Rows) -> Rows:
-        """Derivatives by root and yaw ``(4, M)``: no decoding needed."""
-        moved = x[None, self.size :] + SHIFT * np.eye(4)
-        same = Bodies(np.repeat(decoded.latents[:1], 4, axis=0), np.repeat(decoded.positions[:1], 4, axis=0))
-        return (self._rows(same, moved[:, :3], moved[:, 3]) - rows) / SHIFT
-
-    def _rows(self, decoded: Bodies, root: Rows, yaw: Rows) -> Rows:
-        count = len(decoded.latents)
-        turns = np.broadcast_to(yaw, (count,))
-        return self.objective.rows(decoded.latents, decoded.placed(root, turns), turns)
+        x, cost, count = least_squares(self.residuals, start.vector(), evaluations)
+        return Found(x[: self.size], x[self.size : -1], float(x[-1]), cost, count)

@@ -30,7 +30,7 @@ def solve_pose(
     starts: int = 3,
     evaluations: int = 40,
 ) -> PoseSolution:
-    """The most plausible pose whose joints lie at the keypoints (eq. 1 of "Continual"), with ``scipy.optimize``.
+    """The most plausible pose whose joints lie at the keypoints (eq. 1 of "Continual").
 
     The search begins at those typical poses that come nearest, and ends early when one meets the keypoints. What the
     keypoints leave open is settled mildly: feet stand flat on the ground, the mass is above them, legs are straight,

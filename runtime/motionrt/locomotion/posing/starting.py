@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from motionrt.locomotion.posing.body import Bodies, Prior, Rows, bodies, turned
+from motionrt.locomotion.posing.body import Bodies, Prior, Rows, turned
 from motionrt.locomotion.posing.objective import Objective, Weights
 from motionrt.locomotion.posing.targets import Targets
 
@@ -28,7 +28,7 @@ class Start:
 
 def best_starts(prior: Prior, targets: Targets, count: int) -> list[Start]:
     """The ``count`` starts of lowest cost, best first."""
-    candidates = bodies(*prior.starts)
+    candidates = Bodies(*(part.astype(np.float64) for part in prior.starts))
     yaw = fitted_yaw(candidates, targets)
     root = fitted_root(candidates, targets, yaw)
     cost = np.square(Objective(targets, COARSE).rows(candidates.latents, candidates.placed(root, yaw), yaw)).sum(axis=1)

@@ -18,6 +18,9 @@ class Agent:
         max_slope: steepest ground in degrees (meshes only).
         head_room: metres that must be free above the ground (meshes only).
         comfort: metres of clearance beyond which more is no better; where there is room, paths keep it.
+
+    Raises:
+        InvalidInputError: a length below zero, a slope outside [0, 90), or a step as high as the head room.
     """
 
     radius: float = 0.25

@@ -101,6 +101,7 @@ class SemanticCloud:
         where = np.flatnonzero(self.index == self.names.index(label))
         voxels, member = np.unique(np.floor(self.points[where] / _VOXEL), axis=0, return_inverse=True)
         pairs = cKDTree(voxels * _VOXEL).query_pairs(gap + _VOXEL, output_type="ndarray")
+        pairs = pairs.astype(np.int32)  # older versions of SciPy find nothing in graphs of wider indices
         size = len(voxels)
         graph = coo_array((np.ones(len(pairs), bool), (pairs[:, 0], pairs[:, 1])), shape=(size, size))
         count, thing = connected_components(graph, directed=False)

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 from tiny_models import TINY
-from toy_prior import ToyPrior
+from toy_prior import ToyPrior, positions_by_scipy
 
 from motionrt.errors import InvalidInputError, ModelNotFoundError
 from motionrt.locomotion.posing import solve_pose
@@ -66,14 +66,16 @@ def test_starts_are_the_mean_and_draws_from_the_prior_decoded_once() -> None:
         return ToyPrior().decode(rows).astype(np.float32)
 
     prior = PosePrior(decode)
-    latents, rotations = prior.starts
+    latents, joints = prior.starts
     assert prior.starts[0] is latents
     assert latents.shape == (256, 32)
-    assert rotations.shape == (256, 24, 3, 3)
     np.testing.assert_array_equal(latents[0], 0)
     assert abs(latents[1:].mean()) < 0.05
     assert latents[1:].std() == pytest.approx(1, abs=0.05)
-    np.testing.assert_array_equal(prior.decode(latents[5:6])[0], rotations[5])
+    expected = positions_by_scipy(prior.decode(latents[5:6])[0], np.zeros(3))
+    np.testing.assert_allclose(joints[5], expected, atol=1e-6)
+    assert joints.shape == (256, 24, 3)
+    assert calls == [256, 1]
 
 
 def test_float32_decoding_is_enough_to_meet_keypoints() -> None:

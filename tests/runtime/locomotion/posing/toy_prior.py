@@ -52,7 +52,7 @@ class ToyPrior:
     def starts(self) -> tuple[np.ndarray, np.ndarray]:
         half = np.random.default_rng(0).normal(size=(20, self.latent)) * 0.5
         latents = np.concatenate([np.zeros((1, self.latent)), half, [mirrored_latent(row) for row in half]])
-        return latents, self.decode(latents)
+        return latents, np.stack([positions_by_scipy(pose, np.zeros(3)) for pose in self.decode(latents)])
 
 
 def mirrored_latent(latent: np.ndarray) -> np.ndarray:
