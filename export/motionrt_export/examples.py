@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import Any, Protocol
 
 import numpy as np
@@ -48,12 +48,6 @@ class Sentences:
 
     def __init__(self, encode: Callable[[str], list[int]]) -> None:
         self._ids = [encode(sentence) for sentence in SENTENCES]
-
-    def one_by_one(self) -> Iterator[Feeds]:
-        """Every sentence alone, as it is at run time."""
-        for ids in self._ids:
-            row = np.array([ids], dtype=np.int64)
-            yield {"input_ids": row, "attention_mask": np.ones_like(row)}
 
     def __call__(self, batch: int, length: int, seed: int) -> Feeds:
         random = np.random.default_rng(seed)

@@ -84,16 +84,22 @@ class DistributionGraph(ActorAnswers):
         return x[:, 0], x[:, 1] + FIRST_LOGVAR
 
 
-class TextEncoderGraph(nn.Module):
-    """Token features of the sentence encoder -> embedding and latent."""
+class TextGraph(nn.Module):
+    """Tokens -> embedding and latent, by way of the sentence encoder, whose features and embedding are there, too.
 
-    def __init__(self, model: TMR) -> None:
+    Who asks for the last two alone pays for no more: the runtime computes what leads to the outputs that are fetched.
+    """
+
+    def __init__(self, backbone: MiniLM, model: TMR) -> None:
         super().__init__()
+        self.sentences = SentenceEncoderGraph(backbone)
         self.encoder = ActorEncoderGraph(model.text_encoder)
 
-    def forward(self, token_features: Tensor, attention_mask: Tensor) -> tuple[Tensor, Tensor]:
-        """(B, T, 384), (B, T) int64 -> (B, d), (B, d)."""
-        return self.encoder(token_features, attention_mask.to(torch.bool))
+    def forward(self, input_ids: Tensor, attention_mask: Tensor) -> tuple[Tensor, Tensor, Tensor, Tensor]:
+        """(B, T), (B, T) int64 -> (B, d), (B, d), (B, T, 384), (B, 384)."""
+        features, sentence = self.sentences(input_ids, attention_mask)
+        embedding, latent = self.encoder(features, attention_mask.to(torch.bool))
+        return embedding, latent, features, sentence
 
 
 class MotionEncoderGraph(nn.Module):

@@ -81,19 +81,6 @@ class FeedForward(nn.Module):
         return self.down(F.gelu(self.up(x)))
 
 
-class Norm(nn.Module):
-    """Layer norm in plain operators: the runtime's own goes through a row one number at a time."""
-
-    def __init__(self, source: nn.LayerNorm) -> None:
-        super().__init__()
-        self.weight, self.bias, self.eps = constant(source.weight), constant(source.bias), source.eps
-
-    def forward(self, x: Tensor) -> Tensor:
-        x = x - x.mean(dim=-1, keepdim=True)
-        variance = (x * x).mean(dim=-1, keepdim=True)
-        return x * (1.0 / (variance + self.eps).sqrt()) * self.weight + self.bias
-
-
 class Encoder(nn.Module):
     """One post-norm encoder layer."""
 

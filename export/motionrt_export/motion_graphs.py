@@ -6,49 +6,52 @@ import torch
 from torch import Tensor, nn
 
 from motionrt.motion.features.ccf219 import WIDTH
-from motionrt_export.layers import Encoder, Norm, constant, linear
-from motionrt_export.standing import ORDER, TURNING, Standing, joined, ordered, seen, unseen
+from motionrt_export.gap import Gap, Gaps
+from motionrt_export.layers import Encoder, constant, linear
+from motionrt_export.standing import ORDER, Standing, in_columns, joined, ordered, seen, unseen
 from motionrt_training.networks.motion_transformer import MotionTransformer
-from motionrt_training.networks.transformer import sinusoidal_positions
-from motionrt_training.networks.transnet import (
-    FADE,
-    GOAL,
-    PELVIS,
-    TIME,
-    TransNet,
-    clock,
-    fill,
-    find_gap,
-    frames_at,
-    smoothed,
-)
+from motionrt_training.networks.transformer import EncoderLayer, sinusoidal_positions
 from motionrt_training.networks.transnet import FRAMES as WINDOW
-from motionrt_training.networks.transnet import _distances as distances
-from motionrt_training.networks.transnet import _rates as rates_where_seen
+from motionrt_training.networks.transnet import GOAL, PELVIS, SEED, TIME, TransNet, smoothed
 from motionrt_training.networks.walknet import FRAMES as HISTORY
 from motionrt_training.networks.walknet import GOAL as AIM
 from motionrt_training.networks.walknet import WalkNet
 
 POSES = 3
 """Poses that TransNet sees of every frame: the filled one, and the visible ones before and behind it."""
-FEW = 12
-"""Tokens up to which the runtime's own layer norm is faster than `Norm`."""
+REACH = 2
+"""Frames to either side that TransNet's answers are smoothed over."""
+
+
+class PostNorm(Encoder):
+    """One post-norm layer whose branches are subtracted, with weights of the other sign.
+
+    A sum in front of a layer norm would be fused with it by onnxruntime, whose kernel for both takes five times as
+    long as its layer norm does.
+    """
+
+    def __init__(self, source: EncoderLayer, *, first: int | None = None) -> None:
+        super().__init__(source, first=first)
+        for last in (self.attention.out, self.feed.down):
+            last.weight, last.bias = constant(-last.weight), constant(-last.bias)
+
+    def forward(self, x: Tensor, bias: Tensor | None = None) -> Tensor:
+        kept = x if self.first is None else x[:, : self.first]
+        x = self.norm1(kept - self.attention(x, bias))
+        return self.norm2(x - self.feed(x))
 
 
 class Hidden(nn.ModuleList):
-    """The layers of a `MotionTransformer` over a fixed number of tokens, all of them valid."""
+    """The layers of a `MotionTransformer` over a fixed number of tokens, all of them valid; the last for the first."""
 
-    def __init__(self, source: MotionTransformer, tokens: int, *, first_only: bool = False) -> None:
+    def __init__(self, source: MotionTransformer, *, first: int | None = None) -> None:
         last = len(source.layers) - 1
         super().__init__(
-            Encoder(layer, first=1 if first_only and index == last else None)
-            for index, layer in enumerate(source.layers)
+            PostNorm(layer, first=first if index == last else None) for index, layer in enumerate(source.layers)
         )
-        for layer in self if tokens > FEW else ():
-            layer.norm1, layer.norm2 = Norm(layer.norm1), Norm(layer.norm2)
 
     def forward(self, x: Tensor) -> Tensor:
-        """(B, T, d) -> (B, T, d), or (B, 1, d) of the first token."""
+        """(B, T, d) -> (B, T, d), or (B, first, d) of the first tokens."""
         for layer in self:
             x = layer(x)
         return x
@@ -59,42 +62,40 @@ class Body(nn.Module):
 
     Args:
         source: the network; its last `heard` columns are the same for all frames.
-        frames: length of the window.
+        times: which frame of the window each frame is, whole tokens of neighbours.
         columns: the other columns, in the order in which they come.
         rows, scale: rows of the answer, and what they are multiplied with.
-        first_only: answer for the first frame alone.
+        first: answer for so many tokens alone.
+        frames: and for so many frames of each.
     """
 
     def __init__(
         self,
         source: MotionTransformer,
-        frames: int,
+        times: Tensor,
         columns: Tensor,
         heard: int,
         rows: Tensor,
         scale: Tensor,
         *,
-        first_only: bool = False,
+        first: int,
+        frames: int | None = None,
     ) -> None:
         super().__init__()
-        self.token, self.rows, self.first_only = source.patch * len(columns), len(rows), first_only
+        self.token, self.rows = source.patch * len(columns), len(rows)
         weight = source.embed.weight.unflatten(1, (source.patch, -1))  # (d, patch, columns)
         self.embed = linear(weight[:, :, columns].flatten(1), None)
         self.aim = linear(weight[:, :, -heard:].sum(1), source.embed.bias)
-        tokens = frames // source.patch
-        self.positions = constant(sinusoidal_positions(tokens, source.d, weight))
-        self.layers = Hidden(source, tokens, first_only=first_only)
-        answered = 1 if first_only else source.patch  # frames of a token that are answered for
-        weight, bias = (
-            x.unflatten(0, (source.patch, -1))[:answered, rows] for x in (source.out.weight, source.out.bias)
-        )
+        positions = sinusoidal_positions(len(times) // source.patch, source.d, weight)
+        self.positions = constant(positions[times[:: source.patch] // source.patch])
+        self.layers = Hidden(source, first=first)
+        weight, bias = (x.unflatten(0, (source.patch, -1))[:frames, rows] for x in (source.out.weight, source.out.bias))
         self.answer = linear((weight * scale[:, None]).flatten(0, 1), (bias * scale).flatten())
 
     def forward(self, x: Tensor, heard: Tensor) -> Tensor:
-        """(B, T, columns), (B, heard) -> (B, T, rows), or (B, 1, rows)."""
+        """(B, T, columns), (B, heard) -> (B, answered frames, rows)."""
         x = self.embed(x.reshape(x.shape[0], -1, self.token)) + self.positions + self.aim(heard)[:, None]
-        x = self.answer(self.layers(x))
-        return x if self.first_only else x.reshape(x.shape[0], -1, self.rows)
+        return self.answer(self.layers(x)).reshape(x.shape[0], -1, self.rows)
 
 
 class WalkNetGraph(nn.Module):
@@ -104,69 +105,96 @@ class WalkNetGraph(nn.Module):
         super().__init__()
         order = torch.tensor(ORDER)
         columns = torch.cat((order, WIDTH + order))
-        self.back, self.changes = constant(order.argsort()), constant(changes(HISTORY))
-        self.mean = constant(torch.cat((source.pose_mean[order], torch.zeros(WIDTH))))
-        self.rate = constant(1.0 / torch.cat((source.pose_std, source.rate_std))[columns])
+        self.changes = constant(changes(HISTORY))
         moving = (1.0 - source.still)[order]
+        self.mean, self.rate = constant(source.pose_mean[order]), constant(moving / source.pose_std[order])
+        self.change_rate = constant(moving / source.rate_std[order])
         self.moving, self.resting = constant(moving), constant((source.pose_mean * source.still)[order])
         scale = source.change_std[0, order] * moving
-        self.body = Body(source.body, HISTORY, columns, AIM + 1, order, scale, first_only=True)
+        self.body = Body(source.body, torch.arange(HISTORY), columns, AIM + 1, order, scale, first=1, frames=1)
 
     def forward(self, frames: Tensor, speed: Tensor) -> Tensor:
         """(B, 30, 219), (B,) -> (B, 219)."""
         frames = ordered(frames)
         body = Standing.of(frames[:, -1:])
-        local = seen(frames, body) * self.moving + self.resting
-        inputs = joined(local, self.changes @ local)  # the matrix takes differences, exactly
-        aim = torch.cat((body.goal(), speed[:, None] - 1.0), dim=1)
-        change = self.body((inputs - self.mean) * self.rate, aim)
-        return unseen(local[:, -1:] + change, body)[:, 0, self.back]
+        return in_columns(self.step(frames, body, body.goal(), speed))[:, 0]
+
+    def step(self, frames: Tensor, body: Standing, goal: Tensor, speed: Tensor) -> Tensor:
+        """Frames (B, 30, 219) in `ORDER`, the last one's body, the goal as it sees it (B, 7) -> (B, 1, 219)."""
+        local = seen(frames, body)
+        changes = self.changes @ local  # the matrix takes differences, exactly
+        inputs = joined((local - self.mean) * self.rate, changes * self.change_rate)
+        change = self.body(inputs, torch.cat((goal, speed[:, None] - 1.0), dim=1))
+        return unseen(local[:, -1:] * self.moving + self.resting + change, body)
 
 
 class TransNetGraph(nn.Module):
-    """`TransNet.forward` over 120 frames."""
+    """`TransNet.forward` over 120 frames, of which a gap behind the first 60 is hidden.
+
+    The tokens that answers are needed of come first; the last layer computes them alone.
+    """
 
     def __init__(self, source: TransNet) -> None:
         super().__init__()
         order = torch.tensor(ORDER)
         pelvis = torch.tensor([c if c < 9 else c - WIDTH + PELVIS for c in ORDER[:PELVIS]])  # among the 12 columns
         rate_std, change_std = source.rate_std[order], source.change_std[order]
-        pose_mean, pose_std = source.pose_mean[order].repeat(POSES), source.pose_std[order].repeat(POSES)
-        means = pose_mean, torch.zeros(WIDTH), source.seed_mean[pelvis], torch.zeros(PELVIS)
-        stds = pose_std, rate_std, source.seed_std[pelvis], rate_std[:PELVIS]
-        self.back, self.mean, self.rate = (
-            constant(x) for x in (order.argsort(), torch.cat(means), 1.0 / torch.cat(stds))
-        )
+        means = source.pose_mean[order], source.seed_mean[pelvis]
+        rates = (1.0 / std for std in (source.pose_std[order], source.seed_std[pelvis], rate_std))
+        self.pose_mean, self.seed_mean = (constant(mean) for mean in means)
+        self.pose_rate, self.seed_rate, self.rate = (constant(rate) for rate in rates)
         whole = [part * WIDTH + order for part in range(POSES + 1)]
         parts = [(POSES + 1) * WIDTH + part * PELVIS + pelvis for part in range(2)]
         columns = torch.cat((*whole, *parts, (POSES + 1) * WIDTH + 2 * PELVIS + torch.arange(TIME)))
         rows, scale = torch.cat((order, WIDTH + pelvis)), torch.cat((change_std, change_std[:PELVIS]))
-        self.body = Body(source.body, WINDOW, columns, GOAL, rows, scale)
-        self.smooth = constant(smoothed(torch.eye(WINDOW)[None])[0])
+        patch = source.body.patch
+        self.early = (SEED - REACH) // patch * patch  # the first frame that is answered for
+        times = torch.arange(WINDOW).roll(-self.early)
+        self.body = Body(source.body, times, columns, GOAL, rows, scale, first=(WINDOW - self.early) // patch)
+        self.smooth = constant(smoothed(torch.eye(WINDOW)[None])[0, SEED:, self.early :])
+        self.gaps = Gaps()
 
     def forward(self, frames: Tensor, hidden: Tensor) -> Tensor:
         """(B, 120, 219), (B, 120) bool -> (B, 120, 219)."""
-        gap = find_gap(hidden)
-        line = fill(ordered(frames).masked_fill(hidden[..., None], 0.0), gap)
-        target = Standing.of(line[:, -1:])
-        line = seen(line, target)
-        seed = Standing.of(line.gather(1, gap.last_seed[:, None, None].expand(-1, 1, 2 * TURNING)))
-        from_start, to_end = distances(gap, hidden)
-        rates, ends = (
-            rates_where_seen(line, hidden, gap.before),
-            (frames_at(line, at) for at in (gap.before, gap.after)),
-        )
-        turned = seen(line[:, :, :PELVIS], seed), seen(rates[:, :, :PELVIS], seed.turn())
-        inputs = joined(
-            (joined(line, *ends, rates, *turned) - self.mean) * self.rate, clock(hidden, from_start, to_end)
-        )
-        answer = self.smooth @ self.body(inputs, seed.goal())
+        gap = self.gaps(hidden[:, SEED:])
+        seed, rest = ordered(frames[:, :SEED]), ordered(frames[:, SEED:].masked_fill(gap.there, 0.0))
+        target = Standing.of(rest[:, -1:])
+        seed, rest = seen(seed, target), seen(rest, target)
+        around = torch.cat((seed[:, -2:], gap.behind @ rest), dim=1)
+        line = torch.where(gap.there, gap.coasting @ around, rest)
+        inputs = self._inputs(gap, seed, line, around[:, 2:3])
+        body = Standing.of(seed[:, -1:])
+        answer = self.smooth @ self.body(inputs, body.goal())
         change, pelvis = answer.split((WIDTH, PELVIS), dim=2)
-        window = ((1.0 - torch.exp(from_start * (-1.0 / FADE))) * (1.0 - torch.exp(to_end * (-1.0 / FADE))))[..., None]
-        share = (from_start / (from_start + to_end).clamp(min=1.0))[..., None]
-        line, pelvis = line + change * window, unseen(pelvis * (window * (1.0 - share)), seed.turn())
+        line, pelvis = line + change * gap.window, unseen(pelvis * gap.early, body.turn())
         line = joined(line[:, :, :PELVIS] + pelvis, line[:, :, PELVIS:])
-        return torch.where(hidden[..., None], unseen(line, target)[:, :, self.back], frames)
+        found = torch.where(gap.there, in_columns(unseen(line, target)), frames[:, SEED:])
+        return torch.cat((frames[:, :SEED], found), dim=1)
+
+    def _inputs(self, gap: Gap, seed: Tensor, line: Tensor, end: Tensor) -> Tensor:
+        """What the network sees of every frame, those that are answered for first."""
+        start, steps = seed[:, -1:], seed[:, 1:] - seed[:, :-1]
+        rates = torch.where(gap.there, steps[:, -1:], (line - torch.cat((start, line[:, :-1]), dim=1)) * gap.known)
+        body = Standing.of(start)
+        poses = self._in_order(seed, line)
+        rates = self._in_order(torch.cat((torch.zeros_like(start), steps), dim=1), rates)
+        place = (seen(poses[:, :, :PELVIS], body) - self.seed_mean) * self.seed_rate
+        turned = seen(rates[:, :, :PELVIS], body.turn()) * self.rate[:PELVIS]
+        poses, start, end = ((frame - self.pose_mean) * self.pose_rate for frame in (poses, start, end))
+        around = (self._in_gap(poses, torch.where(gap.there, row, self._rest(poses))) for row in (start, end))
+        clock = nn.functional.pad(gap.clock, (0, 0, SEED - self.early, self.early))
+        return joined(poses, *around, rates * self.rate, place, turned, clock)
+
+    def _in_order(self, seed: Tensor, rest: Tensor) -> Tensor:
+        return torch.cat((seed[:, self.early :], rest, seed[:, : self.early]), dim=1)
+
+    def _rest(self, window: Tensor) -> Tensor:
+        """Of a window in order, what is behind the seed."""
+        return window[:, SEED - self.early : WINDOW - self.early]
+
+    def _in_gap(self, window: Tensor, rest: Tensor) -> Tensor:
+        """A window in order with something else behind the seed."""
+        return torch.cat((window[:, : SEED - self.early], rest, window[:, WINDOW - self.early :]), dim=1)
 
 
 def changes(length: int) -> Tensor:

@@ -1,4 +1,4 @@
-"""How every graph is quantised: the choices; docs/performance.md has the measurements behind them."""
+"""Which variants there are, which one ships, and how every graph is quantised; docs/quantisation.md says why."""
 
 from __future__ import annotations
 
@@ -7,11 +7,14 @@ from dataclasses import dataclass
 
 import onnx
 
+from motionrt_export.attention import join_attention
+from motionrt_export.fuse import fused
+from motionrt_export.gptq import input_products
 from motionrt_export.quantise import blocks, channels, int8_rows, product_names
 from motionrt_export.smooth import Feeds, smooth
 
-FP32, QUANTISED = "fp32", "int8"
-"""Names of the variants."""
+FP32, FP16, QUANTISED = "fp32", "fp16", "int8"
+"""Names of the variants: float32, weights stored as float16, and the integers of `CHOICES`."""
 
 
 @dataclass(frozen=True)
@@ -23,6 +26,7 @@ class Quantisation:
         block: length of a block along the input axis.
         smoothed: products whose activations are evened out first; needs calibration inputs.
         exact: products that stay float32.
+        compensated: products in channels whose weights make up for each other's errors; needs calibration inputs.
         alpha: how much of the outliers moves into the weights.
     """
 
@@ -31,6 +35,7 @@ class Quantisation:
     smoothed: tuple[str, ...] = ()
     alpha: float = 0.6
     exact: tuple[str, ...] = ()
+    compensated: tuple[str, ...] = ()
 
     def describe(self) -> str:
         """For the manifest."""
@@ -40,27 +45,39 @@ class Quantisation:
             parts.append(f"{names}: 8-bit blocks of {self.block}")
         if self.smoothed:
             parts.append(f"{', '.join(name.strip('/') for name in self.smoothed)}: outliers smoothed")
+        if self.compensated:
+            parts.append(f"{', '.join(name.strip('/') for name in self.compensated)}: rounded by GPTQ")
         if self.exact:
             parts.append(f"{', '.join(name.strip('/') for name in self.exact)}: float32")
         return "; ".join([*parts, "lookup tables: int8 rows; norms, softmax and attention products: float32"])
 
 
-SENTENCE_ENCODER = Quantisation(("/feed/down/",), smoothed=("/qkv/", "/feed/up/", "/feed/down/"))
+TEXT = Quantisation(
+    (
+        "/sentences/*/feed/down/",
+        "/sentences/layers.[145]/attention/qkv/",  # of one to four layers tried, these; all six cost 5 % more time
+        "/sentences/layers.[145]/feed/up/",
+        "/encoder/project/",
+    ),
+    smoothed=("/sentences/*/qkv/", "/sentences/*/feed/up/", "/sentences/*/feed/down/"),
+    compensated=("/sentences/",),
+    alpha=0.7,
+)
 ENCODER = Quantisation(("/project/",))
 DECODER = Quantisation(("/project/", "/hear/"))
 MOTION = Quantisation(exact=("/aim/", "/answer/"))
+TRANSITION = Quantisation(exact=("/aim/",))  # answers that are smoothed, and never fed back
 TEMOS_TEXT = Quantisation(("/project/",), exact=("/text_mu/",))
 TEMOS_MOTION = Quantisation(("/project/", "/gather/"))
 TEMOS_DECODER = Quantisation(("/hear/",), exact=("/project/",))
 DENOISER = Quantisation(("/read_text/",), exact=("/read_latent/", "/out/"))
 
 CHOICES: dict[str, Quantisation | None] = {
-    "sentence_encoder": SENTENCE_ENCODER,
-    "tmr_text": ENCODER,
+    "tmr_text": TEXT,
     "tmr_motion": ENCODER,
     "tmr_decoder": DECODER,
     "walknet": MOTION,
-    "transnet": MOTION,
+    "transnet": TRANSITION,
     "pose_prior": None,  # its differences are taken, and it is small: shipped as float32
     "temos_text": TEMOS_TEXT,
     "temos_motion": TEMOS_MOTION,
@@ -69,25 +86,38 @@ CHOICES: dict[str, Quantisation | None] = {
 }
 
 
+NOT_SHIPPED = frozenset({"tmr_decoder", "temos_motion"})
+"""Models that no verb of the runtime needs: their files are built, and stay in the checkout."""
+
+
 def variants(model: str) -> tuple[str, ...]:
-    """Variants of a model; the last one is shipped and taken by default."""
-    return (FP32,) if CHOICES[model] is None else (FP32, QUANTISED)
+    """Variants of a model."""
+    return (FP32, FP16) if CHOICES[model] is None else (FP32, FP16, QUANTISED)
 
 
-def shipped(model: str) -> str:
-    """The variant that is shipped."""
-    return variants(model)[-1]
+def preferred(model: str) -> str:
+    """The variant that is taken by default."""
+    return FP32 if CHOICES[model] is None else QUANTISED
+
+
+def is_shipped(model: str, variant: str) -> bool:
+    """Whether a file comes with motionrt; all others are only built."""
+    return variant == preferred(model) and model not in NOT_SHIPPED
 
 
 def quantise(model: onnx.ModelProto, choice: Quantisation, calibration: Iterable[Feeds] = ()) -> onnx.ModelProto:
-    """A quantised copy of a float32 graph."""
+    """A quantised copy of a float32 graph, with its operators fused."""
     copy = onnx.ModelProto.FromString(model.SerializeToString())
-    everything = product_names(copy)
+    everything, feeds = product_names(copy), list(calibration)
     if choice.smoothed:
-        smooth(copy, product_names(copy, *choice.smoothed), calibration, alpha=choice.alpha)
+        smooth(copy, product_names(copy, *choice.smoothed), feeds, alpha=choice.alpha)
     in_blocks = product_names(copy, *choice.in_blocks) if choice.in_blocks else []
-    blocks(copy, in_blocks, block=choice.block)
     kept = product_names(copy, *choice.exact) if choice.exact else []
-    channels(copy, [name for name in everything if name not in (*in_blocks, *kept)])
+    rest = [name for name in everything if name not in (*in_blocks, *kept)]
+    compensated = product_names(copy, *choice.compensated) if choice.compensated else []
+    products = input_products(copy, {*compensated} & {*rest}, feeds)
+    blocks(copy, in_blocks, block=choice.block)
+    channels(copy, rest, products)
     int8_rows(copy)
-    return copy
+    join_attention(copy)
+    return fused(copy)

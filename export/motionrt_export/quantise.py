@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
+from fnmatch import fnmatchcase
 
 import numpy as np
 import onnx
 from onnx import NodeProto, TensorProto, helper
 
-from motionrt_export.rewrite import Weights, drop_unused, replace, weight_products
+from motionrt_export.gptq import Floats, rounded
+from motionrt_export.rewrite import MICROSOFT, Weights, drop_unused, import_microsoft, replace, weight_products
 
-MICROSOFT = "com.microsoft"
 LIMIT = 64
 """Largest int8 weight of a channel: CPUs without VNNI add two products in 16 bits; 2 * 255 * 64 fits."""
 
@@ -58,7 +59,7 @@ def blocks(model: onnx.ModelProto, nodes: Collection[str], *, block: int = 128) 
 
     replace(model, change)
     drop_unused(model)
-    _import_microsoft(model)
+    import_microsoft(model)
 
 
 def _block_product(node: NodeProto, weights: Weights, block: int) -> NodeProto:
@@ -79,25 +80,31 @@ def _block_product(node: NodeProto, weights: Weights, block: int) -> NodeProto:
     )
 
 
-def channels(model: onnx.ModelProto, nodes: Collection[str]) -> None:
+def channels(model: onnx.ModelProto, nodes: Collection[str], products: Mapping[str, Floats] | None = None) -> None:
     """Turn the named weight products into integer ones: asymmetric 7 bits per output channel.
 
     Activations become uint8 per tensor when the graph runs; one quantisation serves all products of an input.
+    Weights become the nearest whole numbers, or, where `products` has the input's, those with the nearest outputs
+    (`gptq`).
     """
     weights = Weights(model)
     quantised: set[str] = set()
 
     def change(node: NodeProto) -> list[NodeProto] | None:
-        return _channel_product(node, weights, quantised) if node.name in nodes else None
+        if node.name not in nodes:
+            return None
+        return _channel_product(node, weights, quantised, (products or {}).get(node.input[0]))
 
     replace(model, change)
     drop_unused(model)
 
 
-def _channel_product(node: NodeProto, weights: Weights, quantised: set[str]) -> list[NodeProto]:
+def _channel_product(
+    node: NodeProto, weights: Weights, quantised: set[str], products: Floats | None
+) -> list[NodeProto]:
     x, weight = node.input
     name, result = node.name, node.output[0]
-    integers, scale, zero = _channel_weights(weights, weight)
+    integers, scale, zero = _channel_weights(weights, weight, products)
     xq, xs, xz = (f"{x}.{part}" for part in ("uint8", "scale", "zero"))
     new = []
     if x not in quantised:
@@ -112,25 +119,27 @@ def _channel_product(node: NodeProto, weights: Weights, quantised: set[str]) -> 
     ]
 
 
-def _channel_weights(weights: Weights, weight: str) -> tuple[str, str, str]:
+def _channel_weights(weights: Weights, weight: str, products: Floats | None) -> tuple[str, str, str]:
     names = f"{weight}.int8", f"{weight}.channel_scale", f"{weight}.channel_zero"
     if names[0] not in weights:
         matrix = weights.get(weight).astype(np.float64)  # (in, out)
         low, high = np.minimum(matrix.min(axis=0), 0.0), np.maximum(matrix.max(axis=0), 0.0)
         scale = np.maximum((high - low) / (2 * LIMIT), 1e-12)
         zero = np.rint(-LIMIT - low / scale)
-        weights.add(names[0], np.clip(np.rint(matrix / scale) + zero, -LIMIT, LIMIT).astype(np.int8))
+        if products is None:
+            whole = np.clip(np.rint(matrix / scale) + zero, -LIMIT, LIMIT)
+        else:
+            whole = rounded(matrix / scale + zero, products, -LIMIT, LIMIT)
+        weights.add(names[0], whole.astype(np.int8))
         weights.add(names[1], scale.astype(np.float32))
         weights.add(names[2], zero.astype(np.int8))
     return names
 
 
-def _import_microsoft(model: onnx.ModelProto) -> None:
-    if all(opset.domain != MICROSOFT for opset in model.opset_import):
-        model.opset_import.append(helper.make_opsetid(MICROSOFT, 1))
-
-
 def product_names(model: onnx.ModelProto, *contain: str) -> list[str]:
-    """Names of the weight products whose name contains one of `contain` (all of them without)."""
+    """Names of the weight products whose name contains one of `contain` (all of them without).
+
+    A `*` stands for anything, `[145]` for one of these, as in `/sentences/*/feed/down/`.
+    """
     names = [node.name for node in weight_products(model)]
-    return [name for name in names if not contain or any(part in name for part in contain)]
+    return [name for name in names if not contain or any(fnmatchcase(name, f"*{part}*") for part in contain)]

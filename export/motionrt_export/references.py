@@ -24,19 +24,15 @@ Arrays = Mapping[str, np.ndarray[Any, Any]]
 Reference = Callable[[Arrays], dict[str, np.ndarray[Any, Any]]]
 
 
-def sentence_reference(backbone: MiniLM) -> Reference:
-    """Token features and sentence embedding."""
+def text_reference(backbone: MiniLM, model: TMR) -> Reference:
+    """Embedding and latent of tokens, their features, and the sentence embedding."""
 
     def run(ids: Tensor, mask: Tensor) -> dict[str, Tensor]:
         features = backbone(ids, mask)
-        return {"token_features": features, "sentence_embedding": mean_pooled(features, mask)}
+        sentence = {"token_features": features, "sentence_embedding": mean_pooled(features, mask)}
+        return {**_encoded(model.encode_text(features, mask)), **sentence}
 
     return _reference(run, "input_ids", "attention_mask")
-
-
-def text_reference(model: TMR) -> Reference:
-    """Embedding and latent of token features."""
-    return _reference(lambda x, mask: _encoded(model.encode_text(x, mask)), "token_features", "attention_mask")
 
 
 def motion_reference(model: TMR) -> Reference:

@@ -6,7 +6,10 @@ from collections.abc import Callable, Iterable
 
 import numpy as np
 import onnx
-from onnx import NodeProto, numpy_helper
+from onnx import NodeProto, helper, numpy_helper
+
+MICROSOFT = "com.microsoft"
+"""The domain of the operators that onnxruntime adds."""
 
 
 class Weights:
@@ -71,3 +74,9 @@ def weight_products(model: onnx.ModelProto) -> list[NodeProto]:
         for node in model.graph.node
         if node.op_type == "MatMul" and node.input[1] in weights and len(weights.shape(node.input[1])) == 2
     ]
+
+
+def import_microsoft(model: onnx.ModelProto) -> None:
+    """Let a graph use the operators of onnxruntime."""
+    if all(opset.domain != MICROSOFT for opset in model.opset_import):
+        model.opset_import.append(helper.make_opsetid(MICROSOFT, 1))

@@ -4,24 +4,27 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 from typing import Any, Generic
 
 import numpy as np
 from torch import nn
 
+from motionrt.retrieval.captions import read_captions
+from motionrt.runtime import DEFAULT_CAPTIONS
 from motionrt_export import references, specs
-from motionrt_export.calibration import sentence_ids
+from motionrt_export.calibration import calibration_feeds, sentence_ids
 from motionrt_export.drift import TransitionDrift, WalkDrift
 from motionrt_export.examples import Examples, Feeds, Motions, Sentences, random_examples
 from motionrt_export.generation_drift import DecoderDrift, DenoiserDrift
 from motionrt_export.generation_graphs import LatentDenoiserGraph, TemosDecoderGraph, TemosMotionGraph, TemosTextGraph
-from motionrt_export.graphs import DecoderGraph, MotionEncoderGraph, SentenceEncoderGraph, TextEncoderGraph
+from motionrt_export.graphs import DecoderGraph, MotionEncoderGraph, TextGraph
 from motionrt_export.motion_graphs import TransNetGraph, WalkNetGraph
 from motionrt_export.noising import Noised
 from motionrt_export.references import Reference
 from motionrt_export.specs import GraphSpec
+from motionrt_export.text_drift import TextDrift
 from motionrt_export.transitions import Transitions
 from motionrt_export.validate import Trial
 from motionrt_export.walks import Walks
@@ -69,10 +72,10 @@ class Sources:
     """The released checkpoints and the sentence encoder's package, read when they are needed.
 
     `steps` and `characters` say how far how many characters walk when WalkNet is validated, `generations` how many
-    motions are made when TEMOS and its denoiser are.
+    motions are made when TEMOS and its denoiser are; texts are tried on every `every`-th caption of the runtime's list.
     """
 
-    steps, characters, generations = 1000, 16, 64
+    steps, characters, generations, every = 1000, 16, 64, 1
 
     def __init__(self, checkpoints: Path) -> None:
         self.folder = checkpoints
@@ -134,7 +137,6 @@ class Sources:
     def source(self, name: str) -> Source:
         """The source of the graph called `name`; KeyError for any other name."""
         makers: dict[str, Callable[[], Source]] = {
-            specs.SENTENCE_ENCODER.name: self._sentence_encoder,
             specs.TMR_TEXT.name: self._text,
             specs.TMR_MOTION.name: self._motion,
             specs.TMR_DECODER.name: self._decoder,
@@ -148,15 +150,14 @@ class Sources:
         }
         return makers[name]()
 
-    def _sentence_encoder(self) -> Source:
-        module, reference = SentenceEncoderGraph(self.backbone), references.sentence_reference(self.backbone)
-        examples = self.sentences
-        return Source(specs.SENTENCE_ENCODER, module, reference, examples, calibration=examples.one_by_one)
-
     def _text(self) -> Source:
-        model = self.tmr.model
-        module, reference = TextEncoderGraph(model), references.text_reference(model)
-        return Source(specs.TMR_TEXT, module, reference, self._motions.text, release=self.tmr)
+        networks, examples, encode = (self.backbone, self.tmr.model), self.sentences, sentence_ids(self.tokenizer_file)
+        module, reference = TextGraph(*networks), references.text_reference(*networks)
+        trial = TextDrift(encode, read_captions(DEFAULT_CAPTIONS)[:: self.every])
+        calibration = partial(calibration_feeds, encode)
+        return Source(
+            specs.TMR_TEXT, module, reference, examples, release=self.tmr, calibration=calibration, trial=trial
+        )
 
     def _motion(self) -> Source:
         model = self.tmr.model

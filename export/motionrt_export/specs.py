@@ -31,11 +31,19 @@ class TensorSpec:
 
 
 @dataclass(frozen=True)
+class Switch:
+    """An input that need not be given: a bool, true by default; where it is false, `outputs` come without rows."""
+
+    name: str
+    outputs: tuple[str, ...]
+
+
+@dataclass(frozen=True)
 class GraphSpec:
     """A graph's signature; `embeddings` names the outputs that are compared by cosine, row by row.
 
     `length` names the axis that padding extends, `mask` the input that says what is valid; graphs whose lengths are
-    fixed have neither.
+    fixed have neither. `switch` spares those who do not want some of the outputs what they cost.
     """
 
     name: str
@@ -44,6 +52,7 @@ class GraphSpec:
     length: str | None = None
     mask: str | None = None
     embeddings: tuple[str, ...] = field(default=())
+    switch: Switch | None = None
 
     def dynamic_axes(self) -> dict[str, dict[int, str]]:
         """What `torch.onnx.export` wants."""
@@ -69,27 +78,22 @@ _MOTION = TensorSpec(
 _EMBEDDING = TensorSpec("embedding", "float32", ("batch", 256), "1", "latent divided by its length: dot = cosine")
 _LATENT = TensorSpec("latent", "float32", ("batch", 256), "1", "mean of the predicted distribution")
 
-SENTENCE_ENCODER = GraphSpec(
-    "sentence_encoder",
+TMR_TEXT = GraphSpec(
+    "tmr_text",
     (
         TensorSpec("input_ids", "int64", ("batch", "tokens"), "1", "WordPiece ids with [CLS] and [SEP]"),
         _TOKEN_MASK,
     ),
     (
+        _EMBEDDING,
+        _LATENT,
         _TOKEN_FEATURES,
         TensorSpec("sentence_embedding", "float32", ("batch", 384), "1", "masked mean of the features, unit length"),
     ),
     "tokens",
     "attention_mask",
-    ("token_features", "sentence_embedding"),
-)
-TMR_TEXT = GraphSpec(
-    "tmr_text",
-    (_TOKEN_FEATURES, _TOKEN_MASK),
-    (_EMBEDDING, _LATENT),
-    "tokens",
-    "attention_mask",
-    ("embedding",),
+    ("embedding", "token_features", "sentence_embedding"),
+    Switch("embed", ("embedding", "latent")),
 )
 TMR_MOTION = GraphSpec("tmr_motion", (_MOTION, _FRAME_MASK), (_EMBEDDING, _LATENT), "frames", "mask", ("embedding",))
 TMR_DECODER = GraphSpec("tmr_decoder", (_LATENT, _FRAME_MASK), (_MOTION,), "frames", "mask", ())
@@ -108,7 +112,7 @@ TRANSNET = GraphSpec(
     "transnet",
     (
         TensorSpec("frames", "float32", ("batch", 120, 219), "1, m", f"{_SEEN}, seen from the target"),
-        TensorSpec("hidden", "bool", ("batch", 120), "1", "true for frames that are to be filled; they are not read"),
+        TensorSpec("hidden", "bool", ("batch", 120), "1", "true for frames to be filled: one gap, from frame 60 on"),
     ),
     (
         TensorSpec(

@@ -21,6 +21,12 @@ def ordered(frames: Tensor) -> Tensor:
     return joined(turning, frames[:, :, 3:6], frames[:, :, 217:218], frames[:, :, 9:216])
 
 
+def in_columns(frames: Tensor) -> Tensor:
+    """Inverse of `ordered`."""
+    x, root_x, z, root_z, y, root_y, joints = frames.split((3, 1, 3, 1, 3, 1, 207), dim=2)
+    return joined(x, y, z, joints, root_x, root_y, root_z)
+
+
 class Standing(NamedTuple):
     """Heading and place of a body on the ground: cos and sin (B, 1, 1), x and z (B, 1, 4) of what turns, or 0."""
 

@@ -13,7 +13,7 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from motionrt.bench.makes import generate_calls
+from motionrt.bench.makes import DECODE, decode_call, generate_calls
 from motionrt.bench.timing import Call
 from motionrt.models.temos import LatentDistribution
 from motionrt.models.text import SentenceFeatures
@@ -30,8 +30,9 @@ Encode = Callable[[str], tuple[Tensor, Tensor]]  # text -> token features (1, T,
 
 
 def make_cases(encode: Encode, folder: Path) -> dict[str, Call]:
-    """A motion of a text with every sampler; ``folder`` holds the released networks."""
-    return generate_calls(TorchGenerator(encode, folder))
+    """A motion of a text with every sampler, and the decoder alone; ``folder`` holds the released networks."""
+    generator = TorchGenerator(encode, folder)
+    return {**generate_calls(generator), DECODE: decode_call(generator)}
 
 
 class TorchGenerator(Generator):

@@ -1,13 +1,15 @@
 """The torch modules as `motionrt bench --against torch` runs them: what somebody with torch would otherwise
 use.
 
-Inference mode, float32, batch 1, torch's own fused attention, the same tokenizer, and exact search by matmul
-and topk.
+Inference mode, float32, texts one by one, clips in one batch, torch's own fused attention, the same tokenizer, and
+exact search by matmul and topk.
 """
 
 from __future__ import annotations
 
+import json
 import sys
+from collections.abc import Callable
 from itertools import cycle
 from pathlib import Path
 
@@ -16,10 +18,13 @@ import torch.nn.functional as F
 from tokenizers import Tokenizer
 from torch import Tensor
 
+from motionrt.bench.finds import CLIPS, TEXT, answer_case, motion_case, search_case
+from motionrt.bench.first_answer import peak_mb
 from motionrt.bench.rivals import Rival
 from motionrt.bench.timing import Call
-from motionrt.bench.workload import ANSWER, MOTION, SEARCH_SIZES, TEXT, TEXTS, TOP, Workload, search_case
+from motionrt.bench.workload import TEXTS, TOP, Workload
 from motionrt.models import find_manifest
+from motionrt_export.torch_graphs import graph_cases
 from motionrt_export.torch_makes import make_cases
 from motionrt_export.torch_moves import move_cases, released
 from motionrt_training.networks.minilm import MAX_TOKENS, MiniLM, package_folder
@@ -27,6 +32,7 @@ from motionrt_training.networks.tmr import TMR
 from motionrt_training.networks.transformer import set_fused_attention
 
 RELEASED = "models"  # folder of the released networks, beneath that of the manifest
+Embed = Callable[[str], Tensor]
 
 
 class TorchModel:
@@ -37,7 +43,7 @@ class TorchModel:
         self.tokenizer.no_padding()
         self.tokenizer.enable_truncation(MAX_TOKENS)
         self.sentences = MiniLM.from_package()
-        self.tmr = released(TMR, _folder(models))
+        self.tmr = released(TMR, released_folder(models))
         set_fused_attention(self.sentences.eval(), fused=True)
 
     @torch.inference_mode()
@@ -54,30 +60,50 @@ class TorchModel:
 
     @torch.inference_mode()
     def embed_motion(self, features: Tensor) -> Tensor:
-        """Raw guo263 features (F, 263) -> unit embedding (256,)."""
-        mask = torch.ones(1, len(features), dtype=torch.bool)
-        return F.normalize(self.tmr.encode_motion(features[None], mask).mu[0], dim=0)
+        """Raw guo263 features (B, F, 263) -> unit embeddings (B, 256), all in one batch."""
+        mask = torch.ones(features.shape[:2], dtype=torch.bool)
+        return F.normalize(self.tmr.encode_motion(features, mask).mu, dim=1)
 
 
 def open_torch(work: Workload, threads: int, models: str | None = None) -> Rival:
     """The rival called `torch`."""
     torch.set_num_threads(threads)
-    model, texts = TorchModel(models), cycle(work.texts)
-    features, vectors = torch.from_numpy(work.features), torch.from_numpy(work.vectors)
-    cases: dict[str, Call] = {
-        TEXT: lambda: model.embed_text(next(texts)),
-        MOTION: lambda: model.embed_motion(features),
-        ANSWER: lambda: _nearest(vectors[:10_000], model.embed_text(next(texts))),
-    }
-    for size in SEARCH_SIZES:
-        cases[search_case(size)] = _search(vectors[:size], vectors[-1])
-    cases |= move_cases(work.moves, _folder(models)) | make_cases(model.encode, _folder(models))
+    model, folder = TorchModel(models), released_folder(models)
+    cases = text_cases(work, model.embed_text) | search_cases(work)
+    features = torch.from_numpy(work.features)
+    cases |= {motion_case(count): motion_call(model, features, count) for count in CLIPS}
+    cases |= move_cases(work.moves, folder) | make_cases(model.encode, folder)
+    cases |= graph_cases(models, model.sentences, folder)
     return Rival(cases, [sys.executable, "-m", "motionrt_export.torch_rival", *([models] if models else [])])
 
 
-def _folder(models: str | None) -> Path:
+def text_cases(work: Workload, embed: Embed) -> dict[str, Call]:
+    """A text embedded, and looked for among galleries of every size."""
+    texts, vectors = cycle(work.texts), torch.from_numpy(work.vectors)
+    answers = {answer_case(n): _answer(vectors[:n], embed, work.texts) for n in work.sizes}
+    return {TEXT: lambda: embed(next(texts)), **answers}
+
+
+def search_cases(work: Workload) -> dict[str, Call]:
+    """Exact search."""
+    vectors = torch.from_numpy(work.vectors)
+    return {search_case(n): _search(vectors[:n], vectors[-1]) for n in work.sizes}
+
+
+def motion_call(model: TorchModel, features: Tensor, count: int) -> Call:
+    """So many clips in one batch."""
+    batch = features.expand(count, -1, -1).contiguous()
+    return lambda: model.embed_motion(batch)
+
+
+def released_folder(models: str | None) -> Path:
     """Where the released networks lie."""
     return Path(find_manifest(models)).parent / RELEASED
+
+
+def _answer(vectors: Tensor, embed: Embed, given: tuple[str, ...]) -> Call:
+    texts = cycle(given)
+    return lambda: _nearest(vectors, embed(next(texts)))
 
 
 def _search(vectors: Tensor, query: Tensor) -> Call:
@@ -90,4 +116,4 @@ def _nearest(vectors: Tensor, query: Tensor) -> Tensor:
 
 if __name__ == "__main__":
     TorchModel(sys.argv[1] if len(sys.argv) > 1 else None).embed_text(TEXTS[0])
-    print("embedded", flush=True)
+    print(json.dumps({"peak_mb": peak_mb()}), flush=True)

@@ -33,7 +33,8 @@ class Subject:
     """What is validated against what, on which inputs, how exactly.
 
     `scale` are the units of an output's errors, such as the standard deviations of the features; `trial` tells what the
-    errors add up to in use.
+    errors add up to in use. `independent` rows must come out alone as in a batch, which those of dynamic int8 do not:
+    their scales depend on all rows. `exact` is the float32 file that a smaller one is compared with, too.
     """
 
     spec: GraphSpec
@@ -45,6 +46,8 @@ class Subject:
     lengths: tuple[int, ...] = LENGTHS
     batches: tuple[int, ...] = BATCHES
     trial: Trial | None = None
+    independent: bool = False
+    exact: bytes | None = None
 
     @property
     def tried_lengths(self) -> tuple[int, ...]:
@@ -55,9 +58,15 @@ class Subject:
 def validate(subject: Subject) -> Figures:
     """The worst figures over all lengths and batches, and those of the trial; raises ValidationError."""
     check_signature(subject)
+    check_inference(subject)
     session = open_session(subject.content)
     values = worst(_compare(subject, session, feeds, length) for feeds, length in _cases(subject))
     _check(subject, "values against torch", values)
+    if subject.exact:
+        _check(subject, "values against the float32 file", _beside(subject, session, open_session(subject.exact)))
+    if subject.independent:
+        rows = worst(_alone(subject, session, length) for length in subject.tried_lengths)
+        _check(subject, "a row alone and in a batch", rows)
     if subject.spec.length:
         _check(subject, "padding invariance", worst(_padding(subject, session, n) for n in subject.lengths))
     if subject.trial:
@@ -69,10 +78,13 @@ def validate(subject: Subject) -> Figures:
 
 
 def check_signature(subject: Subject) -> None:
-    """Names, types and axes as the file declares them."""
+    """Names, types and axes as the file declares them; inputs that have a default are switches."""
     graph = onnx.load_from_string(subject.content).graph
+    stored = {tensor.name for tensor in graph.initializer}
+    switches = [value.name for value in graph.input if value.name in stored]
+    _require_equal(subject, "switches", switches, [subject.spec.switch.name] if subject.spec.switch else [])
     for side, declared, wanted in (
-        ("inputs", graph.input, subject.spec.inputs),
+        ("inputs", [value for value in graph.input if value.name not in stored], subject.spec.inputs),
         ("outputs", graph.output, subject.spec.outputs),
     ):
         names = [value.name for value in declared]
@@ -82,6 +94,34 @@ def check_signature(subject: Subject) -> None:
             _require_equal(subject, f"type of {tensor.name}", kind.elem_type, TYPES[tensor.dtype])
             axes = tuple(axis.dim_param or axis.dim_value for axis in kind.shape.dim)
             _require_equal(subject, f"axes of {tensor.name}", axes, tensor.shape)
+
+
+def check_inference(subject: Subject) -> None:
+    """ONNX's own checker, and the types and axes that it infers of every output."""
+    try:
+        onnx.checker.check_model(subject.content, full_check=True)
+        inferred = onnx.shape_inference.infer_shapes(
+            _without_outputs(subject.content), strict_mode=True, data_prop=True
+        )
+    except (onnx.checker.ValidationError, onnx.shape_inference.InferenceError) as error:
+        raise ValidationError(f"{subject.spec.name}, ONNX's checker: {error}") from error
+    for value, tensor in zip(inferred.graph.output, subject.spec.outputs, strict=True):
+        kind = value.type.tensor_type
+        _require_equal(subject, f"inferred type of {tensor.name}", kind.elem_type, TYPES[tensor.dtype])
+        if not kind.HasField("shape"):  # behind an operator of com.microsoft, which ONNX knows nothing of
+            continue
+        _require_equal(subject, f"inferred axes of {tensor.name}", len(kind.shape.dim), len(tensor.shape))
+        for found, wanted in zip(kind.shape.dim, tensor.shape, strict=True):
+            if isinstance(wanted, int) and found.HasField("dim_value"):
+                _require_equal(subject, f"inferred size of {tensor.name}", found.dim_value, wanted)
+
+
+def _without_outputs(content: bytes) -> onnx.ModelProto:
+    """The graph with its outputs' shapes forgotten, so that they are inferred and not repeated."""
+    model = onnx.load_from_string(content)
+    for value in model.graph.output:
+        value.type.tensor_type.ClearField("shape")
+    return model
 
 
 def open_session(content: bytes) -> ort.InferenceSession:
@@ -116,6 +156,24 @@ def _compare(subject: Subject, session: ort.InferenceSession, feeds: Feeds, leng
         _require_equal(subject, f"shape of {tensor.name}", found[tensor.name].shape, shape)
         _require_equal(subject, f"type of {tensor.name}", found[tensor.name].dtype.name, tensor.dtype)
     return _figures(subject, found, expected, feeds)
+
+
+def _beside(subject: Subject, session: ort.InferenceSession, exact: ort.InferenceSession) -> Figures:
+    """Another file of the same graph in place of torch."""
+    return worst(_figures(subject, run(session, f), run(exact, f), f) for f, _ in _cases(subject))
+
+
+def _alone(subject: Subject, session: ort.InferenceSession, length: int) -> Figures:
+    """Rows of the largest batch, and each of them alone."""
+    feeds = subject.examples(max(subject.batches), length, seed=length + 1)
+    together = run(session, feeds)
+
+    def row(index: int) -> Figures:
+        one = {name: value[index : index + 1] for name, value in feeds.items()}
+        mine = {name: value[index : index + 1] for name, value in together.items()}
+        return _figures(subject, mine, run(session, one), one)
+
+    return worst(row(index) for index in (0, max(subject.batches) - 1))
 
 
 def _padding(subject: Subject, session: ort.InferenceSession, length: int) -> Figures:

@@ -8,9 +8,11 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from motionrt._lazy import lazily
+
 if TYPE_CHECKING:
     from motionrt.errors import MotionRTError
-    from motionrt.formats import load_motion, load_rig, save_motion
+    from motionrt.formats import load_motion, load_rig, load_target, save_motion
     from motionrt.locomotion import (
         Act,
         Do,
@@ -27,6 +29,7 @@ if TYPE_CHECKING:
     )
     from motionrt.motion import SMPL24, Motion, Skeleton
     from motionrt.motion.body_parts import PARTS
+    from motionrt.rendering import render
     from motionrt.retrieval import Gallery, Hit
     from motionrt.runtime import Runtime
     from motionrt.synthesis.composing import Layer
@@ -59,47 +62,42 @@ __all__ = [
     "errors",
     "load_motion",
     "load_rig",
+    "load_target",
+    "render",
     "save_motion",
 ]
 
 _HOMES = {
-    "PARTS": "motion.body_parts",
-    "SMPL24": "motion",
-    "Act": "locomotion",
-    "Do": "locomotion",
-    "Follow": "locomotion",
-    "Gallery": "retrieval",
-    "Goal": "locomotion",
-    "Hit": "retrieval",
-    "Layer": "synthesis.composing",
-    "Motion": "motion",
-    "MotionRTError": "errors",
-    "Path": "locomotion",
-    "Performance": "locomotion",
-    "Runtime": "runtime",
-    "Scene": "locomotion",
-    "Script": "locomotion",
-    "Skeleton": "motion",
-    "Stand": "locomotion",
-    "Wait": "locomotion",
-    "Walk": "locomotion",
-    "WalkTo": "locomotion",
-    "load_motion": "formats",
-    "load_rig": "formats",
-    "save_motion": "formats",
+    "errors": ("MotionRTError",),
+    "formats": ("load_motion", "load_rig", "load_target", "save_motion"),
+    "locomotion": (
+        "Act",
+        "Do",
+        "Follow",
+        "Goal",
+        "Path",
+        "Performance",
+        "Scene",
+        "Script",
+        "Stand",
+        "Wait",
+        "Walk",
+        "WalkTo",
+    ),
+    "motion": ("SMPL24", "Motion", "Skeleton"),
+    "motion.body_parts": ("PARTS",),
+    "rendering": ("render",),
+    "retrieval": ("Gallery", "Hit"),
+    "runtime": ("Runtime",),
+    "synthesis.composing": ("Layer",),
 }
+_load = lazily(__name__, _HOMES)
 
 
 def __getattr__(name: str) -> Any:
     if name == "__version__":
         return _version()
-    if name == "errors":
-        return import_module("motionrt.errors")
-    if name not in _HOMES:
-        raise AttributeError(f"module 'motionrt' has no attribute '{name}'")
-    value = getattr(import_module(f"motionrt.{_HOMES[name]}"), name)
-    globals()[name] = value
-    return value
+    return import_module("motionrt.errors") if name == "errors" else _load(name)
 
 
 def __dir__() -> list[str]:

@@ -110,7 +110,10 @@ class Moving:
         seed: int = 0,
         progress: Progress | None = None,
     ) -> list[Walk]:
-        """Many characters, each along its path; one call of WalkNet moves all of them by one frame. As :meth:`walk`."""
+        """Many characters, each along its path; one call of WalkNet moves all of them by one frame.
+
+        Arguments and errors are those of :meth:`walk`; InvalidInputError, too, for no paths, or not one start for each.
+        """
         from motionrt.errors import InvalidInputError
         from motionrt.locomotion.journey import Pace
         from motionrt.locomotion.walks import errand, run_errands

@@ -10,38 +10,20 @@ from typing import TYPE_CHECKING, overload
 import numpy as np
 
 from motionrt.errors import GalleryNotFoundError, InvalidInputError
-from motionrt.formats import load_motion
 from motionrt.making import Making
-from motionrt.models import TextMotionModel
+from motionrt.models.tmr import TextMotionModel
 from motionrt.motion import Motion
 from motionrt.motion.skeleton import FloatArray
 from motionrt.moving import Moving
-from motionrt.retrieval import (
-    GALLERY_FILE,
-    WINDOW_LENGTHS,
-    BuildReport,
-    Description,
-    EmbeddedCaptions,
-    Gallery,
-    Hit,
-    Moments,
-    Progress,
-    build_gallery,
-    checked_captions,
-    describe,
-    embed_whole,
-    find_moments,
-    locate,
-    motion_features,
-    read_captions,
-    update_gallery,
-)
 
-if TYPE_CHECKING:
+if TYPE_CHECKING:  # embedding a text, the shortest way to an answer, waits for none of these
     from onnxruntime import SessionOptions
 
-MotionLike = Motion | str | Path
-GalleryLike = Gallery | str | Path
+    from motionrt.retrieval import BuildReport, Description, EmbeddedCaptions, Gallery, Hit, Moments, Progress
+
+    MotionLike = Motion | str | Path
+    GalleryLike = Gallery | str | Path
+
 _ASSETS = Path(__file__).parent / "_assets"
 STARTER_GALLERY = _ASSETS / "starter"
 DEFAULT_CAPTIONS = _ASSETS / "captions.txt"
@@ -55,7 +37,8 @@ class Runtime(Moving, Making):
         models: the manifest or the folder of the models, by default those that came with motionrt.
         threads: threads of every model, by default at most 2 of those that the process may use.
         session_options: options for every onnxruntime session, instead of ``threads``.
-        variant: which files of the models, as in ``fp32``, by default those that the manifest prefers.
+        variant: which files of the models, as in ``fp32``, by default those that the manifest prefers; a model without
+            such a file gives its preferred one (the pose prior has no ``int8``).
     """
 
     def __init__(
@@ -85,12 +68,24 @@ class Runtime(Moving, Making):
 
     @overload  # a str is a sequence of str, too, so the two overlap
     def retrieve(  # type: ignore[overload-overlap]
-        self, text: str, k: int = ..., gallery: GalleryLike | None = ..., *, per_clip: bool = ...
+        self,
+        text: str,
+        k: int = ...,
+        gallery: GalleryLike | None = ...,
+        *,
+        per_clip: bool = ...,
+        approximate: bool = ...,
     ) -> list[Hit]: ...
 
     @overload
     def retrieve(
-        self, text: Sequence[str], k: int = ..., gallery: GalleryLike | None = ..., *, per_clip: bool = ...
+        self,
+        text: Sequence[str],
+        k: int = ...,
+        gallery: GalleryLike | None = ...,
+        *,
+        per_clip: bool = ...,
+        approximate: bool = ...,
     ) -> list[list[Hit]]: ...
 
     def retrieve(
@@ -100,6 +95,7 @@ class Runtime(Moving, Making):
         gallery: GalleryLike | None = None,
         *,
         per_clip: bool = True,
+        approximate: bool = False,
     ) -> list[Hit] | list[list[Hit]]:
         """The motions of a gallery that fit a text best.
 
@@ -108,14 +104,20 @@ class Runtime(Moving, Making):
             k: how many hits, at least 1; a smaller gallery gives all it has.
             gallery: a gallery or its folder; by default the starter gallery that came with motionrt.
             per_clip: only the best span of every clip; otherwise every 10 s window is a hit of its own.
+            approximate: search galleries of 50,000 windows and more by a graph of neighbours, which may miss a hit
+                (extra ``ann``); see :meth:`Gallery.search`.
 
         Raises:
             InvalidInputError: an empty text, or a bad ``k``.
             GalleryNotFoundError, GalleryError: no gallery there, damaged, or made by another model.
         """
+        self.model.prepare()
         opened = self.gallery(gallery)
         opened.check_model(self.model.fingerprint, self.model.name)
-        hits = [opened.search(query, k, per_clip=per_clip) for query in self.model.embed_text(_texts(text))]
+        hits = [
+            opened.search(query, k, per_clip=per_clip, approximate=approximate)
+            for query in self.model.embed_text(_texts(text))
+        ]
         return hits[0] if isinstance(text, str) else hits
 
     def gallery(self, gallery: GalleryLike | None = None) -> Gallery:
@@ -123,6 +125,8 @@ class Runtime(Moving, Making):
 
         An opened gallery is kept until the one on disk is replaced.
         """
+        from motionrt.retrieval import GALLERY_FILE, Gallery, locate
+
         if isinstance(gallery, Gallery):
             return gallery
         folder = _starter() if gallery is None else locate(Path(gallery))
@@ -140,29 +144,37 @@ class Runtime(Moving, Making):
             captions: texts to choose from, by default a list of everyday actions that comes with motionrt. A
                 list is embedded once and remembered.
         """
+        from motionrt.retrieval import describe, motion_features
+
         loaded = _loaded(motion)
         return describe(motion_features(loaded), loaded.duration, self.captions(captions), self.model, k)
 
     def captions(self, texts: Sequence[str] | None = None) -> EmbeddedCaptions:
         """A list of captions, by default the one that comes with motionrt, with embeddings; remembered."""
+        from motionrt.retrieval import checked_captions, read_captions
+
         chosen = checked_captions(texts if texts is not None else read_captions(DEFAULT_CAPTIONS))
         if chosen not in self._captions:
             self._captions[chosen] = self._embedded(chosen)
         return self._captions[chosen]
 
     def _embedded(self, texts: tuple[str, ...]) -> EmbeddedCaptions:
+        from motionrt.retrieval import EmbeddedCaptions
+
         ready = EmbeddedCaptions.read(EMBEDDED_CAPTIONS, self.model.fingerprint)
         if ready is not None and ready.texts == texts:
             return ready
         return EmbeddedCaptions(texts, self.model.embed_text(texts), self.model.fingerprint)
 
-    def moments(self, text: str, motion: MotionLike, k: int = 5, *, lengths: Sequence[int] = WINDOW_LENGTHS) -> Moments:
+    def moments(self, text: str, motion: MotionLike, k: int = 5, *, lengths: Sequence[int] | None = None) -> Moments:
         """Where in a motion a text happens: the best spans, and the similarity over time.
 
         ``lengths`` are those of the sliding windows, in frames at 20 fps; by default 10 to 60 (0.5 to 3 s).
         """
-        query = self.embed_text(text)
-        return find_moments(query, motion_features(_loaded(motion)), self.model, k, lengths=lengths)
+        from motionrt.retrieval import WINDOW_LENGTHS, find_moments, motion_features
+
+        query, chosen = self.embed_text(text), WINDOW_LENGTHS if lengths is None else lengths
+        return find_moments(query, motion_features(_loaded(motion)), self.model, k, lengths=chosen)
 
     def embed_text(self, text: str | Sequence[str]) -> FloatArray:
         """Unit vector ``(256,)`` of a text, or ``(N, 256)`` of a list."""
@@ -173,7 +185,13 @@ class Runtime(Moving, Making):
         """Unit vector ``(256,)`` of a motion or motion file, or ``(N, 256)`` of a list.
 
         A motion longer than 10 s is the mean over windows of 10 s, every 5 s, normalised.
+
+        Raises:
+            InvalidInputError: an empty list.
+            MotionFileNotFoundError, FormatError, RigError: a file that cannot be read.
         """
+        from motionrt.retrieval import embed_whole, motion_features
+
         if isinstance(motion, Motion | str | Path):
             return embed_whole(self.model, motion_features(_loaded(motion)))
         if not motion:
@@ -194,10 +212,14 @@ class Runtime(Moving, Making):
         With ``jobs`` above 1 call it under ``if __name__ == "__main__":``, as for any Python that starts
         processes.
         """
+        from motionrt.retrieval import build_gallery
+
         return build_gallery(folder, self._opener(), out=out, jobs=jobs, mapping=mapping, progress=progress)
 
     def update_gallery(self, gallery: str | Path, *, jobs: int = 1, progress: Progress | None = None) -> BuildReport:
         """Index what is new or changed, drop what is gone; see :func:`motionrt.retrieval.update_gallery`."""
+        from motionrt.retrieval import update_gallery
+
         return update_gallery(gallery, self._opener(), jobs=jobs, progress=progress)
 
     def _opener(self) -> partial[TextMotionModel]:
@@ -206,6 +228,8 @@ class Runtime(Moving, Making):
 
 
 def _starter() -> Path:
+    from motionrt.retrieval import GALLERY_FILE
+
     if not (STARTER_GALLERY / GALLERY_FILE).is_file():
         raise GalleryNotFoundError(
             f"the starter gallery is not installed ({STARTER_GALLERY}); "
@@ -222,4 +246,6 @@ def _texts(text: str | Sequence[str]) -> list[str]:
 
 
 def _loaded(motion: MotionLike) -> Motion:
+    from motionrt.formats import load_motion
+
     return motion if isinstance(motion, Motion) else load_motion(motion)

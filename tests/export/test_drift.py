@@ -15,8 +15,8 @@ from tiny_nets import TinySources, tiny_sources  # noqa: E402
 
 from motionrt_export.drift import TransitionDrift, WalkDrift, joints, ratio  # noqa: E402
 from motionrt_export.measures import beyond  # noqa: E402
-from motionrt_export.publish import tolerance  # noqa: E402
 from motionrt_export.references import Reference, transition_reference, walk_reference  # noqa: E402
+from motionrt_export.tolerances import tolerance  # noqa: E402
 from motionrt_export.transitions import Transitions  # noqa: E402
 from motionrt_export.walks import standing_start, winding  # noqa: E402
 

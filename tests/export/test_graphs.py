@@ -12,7 +12,7 @@ from motionrt_export.graphs import (  # noqa: E402
     DecoderGraph,
     MotionEncoderGraph,
     SentenceEncoderGraph,
-    TextEncoderGraph,
+    TextGraph,
 )
 from motionrt_export.layers import Attention, folded  # noqa: E402
 from motionrt_training.networks.minilm import mean_pooled  # noqa: E402
@@ -43,10 +43,11 @@ def test_the_motion_encoder_is_the_one_that_was_trained(patch: int, length: int)
 
 @pytest.mark.parametrize("length", [1, 5, 40])
 def test_the_text_encoder_is_the_one_that_was_trained(length: int) -> None:
-    model, mask = tiny_tmr(), masks(3, length)
-    features = torch.randn(3, length, 384)
-    embedding, latent = TextEncoderGraph(model)(features, mask.long())
-    expected = model.encode_text(features, mask).mu
+    backbone, model, mask = tiny_minilm(), tiny_tmr(), masks(3, length)
+    ids = torch.randint(0, 2000, (3, length))
+    embedding, latent, features, sentence = TextGraph(backbone, model)(ids, mask.long())
+    expected = model.encode_text(backbone(ids, mask), mask).mu
+    torch.testing.assert_close(sentence, mean_pooled(features, mask), atol=1e-6, rtol=0)
     torch.testing.assert_close(latent, expected, atol=1e-5, rtol=1e-5)
     torch.testing.assert_close(embedding.norm(dim=-1), torch.ones(3), atol=1e-6, rtol=0)
 

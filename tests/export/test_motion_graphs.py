@@ -14,10 +14,12 @@ from scipy.spatial.transform import Rotation  # noqa: E402
 from tiny_nets import tiny_pose_prior, tiny_transnet, tiny_walknet  # noqa: E402
 
 from motionrt_export import specs  # noqa: E402
+from motionrt_export.gap import Gaps  # noqa: E402
 from motionrt_export.motion_graphs import Hidden, TransNetGraph, WalkNetGraph, changes  # noqa: E402
 from motionrt_export.trace import trace  # noqa: E402
 from motionrt_export.validate import open_session, run  # noqa: E402
 from motionrt_training.networks.motion_transformer import MotionTransformer  # noqa: E402
+from motionrt_training.networks.transnet import _distances, clock, fill, find_gap  # noqa: E402
 
 
 def poses(rng: np.random.Generator, *shape: int) -> np.ndarray:
@@ -46,7 +48,7 @@ def test_characters_of_a_crowd_do_not_disturb_each_other() -> None:
 def test_transitions_are_those_of_transnet(patch: int) -> None:
     model, rng = tiny_transnet(patch), np.random.default_rng(2)
     frames, hidden = torch.from_numpy(poses(rng, 3, 120)), torch.zeros(3, 120, dtype=torch.bool)
-    hidden[0, 60:119] = hidden[1, 70:90] = hidden[2, 45:119] = True
+    hidden[0, 60:119] = hidden[1, 60:80] = hidden[2, 60:118] = True
     found = TransNetGraph(model)(frames, hidden)
     torch.testing.assert_close(found, model(frames, hidden), atol=3e-5, rtol=1e-5)
     assert torch.equal(found[~hidden], frames[~hidden])
@@ -67,7 +69,8 @@ def test_the_file_takes_other_batches_than_the_traced_one(spec, module, batch: i
     feeds = {name: rng.normal(size=shape).astype(np.float32) for name, shape in shapes.items()}
     if "hidden" in feeds:
         feeds["hidden"] = np.zeros((batch, 120), bool)
-        feeds["hidden"][:, 30:110] = rng.random((batch, 80)) < 0.6
+        for row, gap in zip(feeds["hidden"], rng.integers(0, 60, batch), strict=True):
+            row[60 : 60 + gap] = True
     found = run(open_session(trace(module, spec).SerializeToString()), feeds)[spec.outputs[0].name]
     expected = module(*(torch.from_numpy(feeds[tensor.name]) for tensor in spec.inputs))
     np.testing.assert_allclose(found, expected.numpy(), atol=1e-4)
@@ -76,15 +79,25 @@ def test_the_file_takes_other_batches_than_the_traced_one(spec, module, batch: i
 NONE = torch.zeros(1)  # no key is masked
 
 
-def test_the_layers_answer_for_the_first_frame_alone() -> None:
+def test_the_layers_answer_for_the_first_frames_alone() -> None:
     torch.manual_seed(0)
     source = MotionTransformer(8, 8, 64, 3, 2, 64).eval()
     x = torch.randn(2, 30, 64)
     expected = source.layers[2](source.layers[1](source.layers[0](x, NONE), NONE), NONE)
-    for tokens in (6, 30):  # with the runtime's layer norm, and with plain operators
-        found, full = Hidden(source, tokens, first_only=True)(x), Hidden(source, tokens)(x)
-        torch.testing.assert_close(found, full[:, :1], atol=1e-5, rtol=1e-5)
-        torch.testing.assert_close(full, expected, atol=1e-5, rtol=1e-5)
+    torch.testing.assert_close(Hidden(source)(x), expected, atol=1e-5, rtol=1e-5)
+    for first in (1, 7):
+        torch.testing.assert_close(Hidden(source, first=first)(x), expected[:, :first], atol=1e-5, rtol=1e-5)
+
+
+def test_gaps_are_filled_and_told_as_the_network_does_it() -> None:
+    frames, hidden = torch.from_numpy(poses(np.random.default_rng(4), 4, 120)), torch.zeros(4, 120, dtype=torch.bool)
+    for row, length in zip(hidden, (0, 1, 57, 59), strict=True):
+        row[60 : 60 + length] = True
+    around, gap = find_gap(hidden), Gaps()(hidden[:, 60:])
+    rest = frames[:, 60:].masked_fill(gap.there, 0.0)
+    filled = gap.coasting @ torch.cat((frames[:, 58:60], gap.behind @ rest), dim=1)
+    torch.testing.assert_close(torch.where(gap.there, filled, rest), fill(frames, around)[:, 60:], atol=1e-5, rtol=1e-5)
+    torch.testing.assert_close(gap.clock, clock(hidden, *_distances(around, hidden))[:, 60:])
 
 
 def test_changes_are_differences_from_the_row_before() -> None:

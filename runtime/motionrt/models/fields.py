@@ -2,13 +2,21 @@
 
 from __future__ import annotations
 
+import math
+import re
 from collections.abc import Callable
 from typing import Any, TypeVar
 
 from motionrt.errors import ManifestError
 
 T = TypeVar("T")
+_HUGE = 1e300
 Scalar = str | int | float | bool
+
+NAME = re.compile(r"[a-z][a-z0-9_]*")
+SHA256 = re.compile(r"[0-9a-f]{64}")
+FILE = re.compile(r"(?!\.{1,2}(?:/|$))[^/\\:\x00-\x1f]+(?:/(?!\.{1,2}(?:/|$))[^/\\:\x00-\x1f]+)*")
+"""A relative path with forward slashes that stays beneath its folder."""
 
 
 class Fields:
@@ -19,12 +27,25 @@ class Fields:
         self.place = place
 
     def text(self, key: str) -> str:
-        """A string."""
-        return self._take(key, str)
+        """A string with something in it."""
+        value = self._take(key, str)
+        if not value.strip():
+            raise ManifestError(f"{self.place}.{key}: expected a text, found {value!r}")
+        return value
 
-    def integer(self, key: str) -> int:
-        """An integer (a boolean is none)."""
-        return self._take(key, int)
+    def integer(self, key: str, least: int = 1) -> int:
+        """A whole number from ``least`` (a boolean is none, 3.0 is one)."""
+        return whole(self._take(key, object), f"{self.place}.{key}", least)
+
+    def file(self, key: str) -> str:
+        """A relative path with forward slashes, which does not leave the folder."""
+        value = self._take(key, str)
+        if not FILE.fullmatch(value):
+            raise ManifestError(
+                f"{self.place}.{key}: expected a relative path with forward slashes that stays beneath the manifest's "
+                f"folder, found {value!r}"
+            )
+        return value
 
     def flag(self, key: str) -> bool:
         """True or false."""
@@ -32,19 +53,28 @@ class Fields:
 
     def sha256(self, key: str) -> str:
         """64 lower-case hexadecimal digits."""
-        value = self.text(key)
-        if len(value) != 64 or not set(value) <= set("0123456789abcdef"):
+        value = self._take(key, str)
+        if not SHA256.fullmatch(value):
             raise ManifestError(f"{self.place}.{key}: expected 64 lower-case hexadecimal digits, found {value!r}")
         return value
 
     def items(self, key: str, read: Callable[[Any, str], T]) -> tuple[T, ...]:
         """A list, every element read by `read(content, place)`."""
-        place = f"{self.place}.{key}"
-        return tuple(read(content, f"{place}[{i}]") for i, content in enumerate(self._take(key, list)))
+        return listed(read)(self._take(key, list), f"{self.place}.{key}")
 
-    def named(self, key: str, read: Callable[[Any, str], T]) -> dict[str, T]:
+    def table(self, key: str, read: Callable[[Any, str], T]) -> dict[str, T]:
         """A mapping, every value read by `read(content, place)`."""
         return table(read)(self._take(key, dict), f"{self.place}.{key}")
+
+    def named(self, key: str, read: Callable[[Any, str], T]) -> dict[str, T]:
+        """The same with at least one entry, whose keys are names: lower-case letters, digits and underscores."""
+        place, content = f"{self.place}.{key}", self._take(key, dict)
+        for name in content:
+            if not isinstance(name, str) or not NAME.fullmatch(name):
+                raise ManifestError(f"{place}: a name has lower-case letters, digits and underscores, found {name!r}")
+        if not content:
+            raise ManifestError(f"{place}: expected at least one entry")
+        return table(read)(content, place)
 
     def optional(self, key: str, read: Callable[[Any, str], T]) -> T | None:
         """`read(content, place)`, or None where the key is missing or null."""
@@ -64,23 +94,42 @@ class Fields:
         if key not in self._left:
             raise ManifestError(f"{self.place}: '{key}' is missing")
         value = self._left.pop(key)
-        if not isinstance(value, kind) or (kind is int and isinstance(value, bool)):
+        if not isinstance(value, kind):
             raise ManifestError(f"{self.place}.{key}: expected {kind.__name__}, found {value!r}")
         return value
 
 
 def scalar(content: object, place: str) -> Scalar:
-    """A string, number or boolean."""
-    if not isinstance(content, str | int | float | bool):
-        raise ManifestError(f"{place}: expected a string, a number or true/false, found {content!r}")
+    """A string, a finite number or a boolean."""
+    if not isinstance(content, str | int | float | bool) or (isinstance(content, float) and not math.isfinite(content)):
+        raise ManifestError(f"{place}: expected a string, a finite number or true/false, found {content!r}")
     return content
 
 
 def number(content: object, place: str) -> float:
-    """A number."""
-    if isinstance(content, bool) or not isinstance(content, int | float):
-        raise ManifestError(f"{place}: expected a number, found {content!r}")
+    """A finite number."""
+    if isinstance(content, bool) or not isinstance(content, int | float) or not abs(content) < _HUGE:
+        raise ManifestError(f"{place}: expected a number, and a finite one, found {content!r}")
     return float(content)
+
+
+def whole(content: object, place: str, least: int = 1) -> int:
+    """A whole number from ``least``."""
+    integral = isinstance(content, int) or (isinstance(content, float) and content.is_integer())
+    if isinstance(content, bool) or not integral or int(content) < least:  # type: ignore[call-overload]
+        raise ManifestError(f"{place}: expected a whole number from {least}, found {content!r}")
+    return int(content)  # type: ignore[call-overload,no-any-return]
+
+
+def listed(read: Callable[[Any, str], T]) -> Callable[[Any, str], tuple[T, ...]]:
+    """Reader of a list whose elements are read by `read`."""
+
+    def read_list(content: object, place: str) -> tuple[T, ...]:
+        if not isinstance(content, list):
+            raise ManifestError(f"{place}: expected a list, found {content!r}")
+        return tuple(read(value, f"{place}[{i}]") for i, value in enumerate(content))
+
+    return read_list
 
 
 def table(read: Callable[[Any, str], T]) -> Callable[[Any, str], dict[str, T]]:

@@ -37,6 +37,8 @@ class Variant:
             ``max_abs_error``.
         parity: the same measures as found when the file was made.
         producers: the versions of the programs that made the file.
+        benchmark: milliseconds of one standard call, and of the torch module beside it, where they were measured.
+        quality: what is made with this file, by the measures of its task.
     """
 
     name: str
@@ -51,6 +53,20 @@ class Variant:
     parity: Figures
     producers: Mapping[str, Scalar]
     benchmark: Mapping[str, Scalar] | None
+    quality: Mapping[str, Scalar]
+
+
+@dataclass(frozen=True)
+class Statistic:
+    """Numbers about the training data that a graph holds inside, such as the mean of every feature.
+
+    ``sha256`` is that of the float32 numbers, little endian, in C order; ``source`` the file that has them by ``name``.
+    """
+
+    name: str
+    shape: tuple[int, ...]
+    sha256: str
+    source: str
 
 
 @dataclass(frozen=True)
@@ -73,7 +89,7 @@ class Dataset:
 
 @dataclass(frozen=True)
 class Model:
-    """A model with its variants."""
+    """A model with its variants; ``feature_statistics`` says in words what its ``statistics`` are."""
 
     name: str
     description: str
@@ -82,6 +98,7 @@ class Model:
     training_data: tuple[Dataset, ...]
     recipe: Mapping[str, Scalar]
     feature_statistics: str
+    statistics: tuple[Statistic, ...]
     inputs: tuple[TensorInfo, ...]
     outputs: tuple[TensorInfo, ...]
     tokenizer: Tokenizer | None
@@ -115,6 +132,24 @@ class Manifest:
             known = ", ".join(sorted(self.models))
             raise ModelNotFoundError(f"{self.path} has no model '{name}'; it has: {known}")
         return self.models[name]
+
+    def variant(self, model: str, name: str | None = None) -> Variant:
+        """The variant of a model that somebody means who asks all models for ``name``.
+
+        A model that lacks what others have (the pose prior has no ``int8``) gives its default one; None is the default.
+
+        Raises:
+            ModelNotFoundError: no such model, or no model at all has such a variant.
+        """
+        found = self.model(model)
+        if name is not None and name not in found.variants and name in self.variants:
+            return found.variant()
+        return found.variant(name)
+
+    @property
+    def variants(self) -> frozenset[str]:
+        """The names of all variants of all models."""
+        return frozenset(name for model in self.models.values() for name in model.variants)
 
     def locate(self, file: str) -> Path:
         """The path of a file that the manifest names."""

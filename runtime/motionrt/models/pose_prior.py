@@ -12,6 +12,8 @@ import numpy.typing as npt
 
 from motionrt.errors import InvalidInputError
 from motionrt.models.sessions import Sessions
+from motionrt.motion.kinematics import fk
+from motionrt.motion.skeleton import SMPL24
 
 if TYPE_CHECKING:
     from onnxruntime import SessionOptions
@@ -78,11 +80,19 @@ class PosePrior:
 
     def sample(self, count: int, seed: int = 0) -> tuple[FloatArray, FloatArray]:
         """``count`` poses drawn from the prior: latents ``(count, 32)`` and rotations ``(count, 24, 3, 3)``."""
-        latents = np.random.default_rng(seed).normal(size=(count, LATENT)).astype(np.float32)
+        latents = _drawn(count, seed)
         return latents, self.decode(latents)
 
     @cached_property
     def starts(self) -> tuple[FloatArray, FloatArray]:
-        """256 poses, decoded once, that a search may begin at: the mean pose and 255 drawn ones, as `sample` gives."""
-        latents = np.concatenate([np.zeros((1, LATENT), np.float32), self.sample(255)[0]])
-        return latents, self.decode(latents)
+        """256 poses that a search may begin at, made once: the mean pose and 255 drawn ones, as `sample` gives.
+
+        Latents ``(256, 32)`` and global joint positions ``(256, 24, 3)``, metres, the pelvis at the origin.
+        """
+        latents = np.concatenate([np.zeros((1, LATENT), np.float32), _drawn(255, 0)])
+        origin = np.zeros((len(latents), 3), np.float32)
+        return latents, fk(self.decode(latents), origin, SMPL24.offsets, SMPL24.parents)[0]
+
+
+def _drawn(count: int, seed: int) -> FloatArray:
+    return np.random.default_rng(seed).normal(size=(count, LATENT)).astype(np.float32)

@@ -2,25 +2,38 @@
 
 from __future__ import annotations
 
-from pathlib import Path, PurePosixPath
+from collections.abc import Iterable
+from pathlib import Path
 from typing import Any
 
 from motionrt.errors import ManifestError
-from motionrt.models.fields import Fields, number, scalar, table
-from motionrt.models.manifest import Dataset, Manifest, Model, TensorInfo, Tokenizer, Variant
+from motionrt.models.fields import Fields, listed, number, scalar, table, whole
+from motionrt.models.manifest import Dataset, Manifest, Model, Statistic, TensorInfo, Tokenizer, Variant
 
 SCHEMA = 1
+TYPES = ("bool", "float16", "float32", "float64", "int32", "int64")
 
 
 def load_manifest(path: str | Path) -> Manifest:
     """Read and check a manifest; the model files are not touched.
 
     Raises:
-        ManifestError: no such file, no YAML, an unknown schema, a missing or unknown key, a wrong type.
+        ManifestError: no such file, no YAML, an unknown schema, a missing, unknown or repeated key, a value of the
+            wrong type or out of range, a name that leads nowhere, a file that is named twice.
     """
     path = Path(path)
-    fields = Fields(_parsed(path), path.name)
-    if (schema := fields.integer("schema")) != SCHEMA:
+    manifest = manifest_of(_parsed(path), path)
+    check_references(manifest)
+    return manifest
+
+
+def manifest_of(content: object, path: Path) -> Manifest:
+    """The manifest of plain values; what one entry says of another is not checked yet.
+
+    This much is also in ``_assets/models_manifest.schema.json``.
+    """
+    fields = Fields(content, path.name)
+    if (schema := fields.integer("schema", least=0)) != SCHEMA:
         advice = "update motionrt (pip install --upgrade motionrt)" if schema > SCHEMA else "export the models again"
         raise ManifestError(f"{path}: schema version {schema} is not known (this motionrt reads {SCHEMA}); {advice}")
     models = fields.named("models", _model)
@@ -28,15 +41,39 @@ def load_manifest(path: str | Path) -> Manifest:
     return Manifest(path, models)
 
 
+def check_references(manifest: Manifest) -> None:
+    """ManifestError where a default is none of the variants, or a file or a tensor is named twice."""
+    files: dict[str, str] = {}
+    for model in manifest.models.values():
+        place = f"{manifest.path.name}.models.{model.name}"
+        if model.default_variant not in model.variants:
+            raise ManifestError(f"{place}.default_variant: there is no variant '{model.default_variant}'")
+        _check_unique([tensor.name for tensor in (*model.inputs, *model.outputs)], f"{place}: inputs and outputs")
+        _check_unique([statistic.name for statistic in model.statistics], f"{place}.statistics")
+        for variant in model.variants.values():
+            here = f"{place}.variants.{variant.name}"
+            if (other := files.setdefault(variant.file.casefold(), here)) != here:
+                raise ManifestError(f"{here}.file: '{variant.file}' is the file of {other}; each needs one of its own")
+
+
+def _check_unique(names: Iterable[str], place: str) -> None:
+    seen: set[str] = set()
+    for name in names:
+        if name in seen:
+            raise ManifestError(f"{place}: '{name}' stands there twice")
+        seen.add(name)
+
+
 def _parsed(path: Path) -> Any:
     import yaml
 
-    loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+    from motionrt.models.yaml_keys import unique_keys
+
     try:
-        return yaml.load(path.read_text(encoding="utf-8"), loader)  # a safe loader, either of the two
+        return yaml.load(path.read_text(encoding="utf-8"), unique_keys(yaml))  # a safe loader
     except OSError as error:
         raise ManifestError(f"cannot read {path}: {error.strerror or error}") from error
-    except (yaml.YAMLError, UnicodeDecodeError) as error:
+    except (yaml.YAMLError, UnicodeDecodeError, ValueError) as error:
         raise ManifestError(f"{path} is not a YAML file: {error}") from error
 
 
@@ -48,18 +85,17 @@ def _model(content: object, place: str) -> Model:
         licence=fields.text("licence"),
         attribution=fields.text("attribution"),
         training_data=fields.items("training_data", _dataset),
-        recipe=fields.named("recipe", scalar),
+        recipe=fields.table("recipe", scalar),
         feature_statistics=fields.text("feature_statistics"),
+        statistics=fields.optional("statistics", listed(_statistic)) or (),
         inputs=fields.items("inputs", _tensor),
         outputs=fields.items("outputs", _tensor),
         tokenizer=fields.optional("tokenizer", _tokenizer),
         default_variant=fields.text("default_variant"),
         variants=fields.named("variants", _variant),
-        quality=fields.named("quality", scalar),
+        quality=fields.table("quality", scalar),
     )
     fields.done()
-    if model.default_variant not in model.variants:
-        raise ManifestError(f"{place}.default_variant: there is no variant '{model.default_variant}'")
     return model
 
 
@@ -68,6 +104,14 @@ def _dataset(content: object, place: str) -> Dataset:
     dataset = Dataset(fields.text("name"), fields.text("licence"))
     fields.done()
     return dataset
+
+
+def _statistic(content: object, place: str) -> Statistic:
+    fields = Fields(content, place)
+    shape = fields.items("shape", whole)
+    statistic = Statistic(fields.text("name"), shape, fields.sha256("sha256"), fields.text("source"))
+    fields.done()
+    return statistic
 
 
 def _tensor(content: object, place: str) -> TensorInfo:
@@ -80,18 +124,24 @@ def _tensor(content: object, place: str) -> TensorInfo:
         fields.text("meaning"),
     )
     fields.done()
+    if tensor.dtype not in TYPES:
+        raise ManifestError(f"{place}.dtype: expected one of {', '.join(TYPES)}, found {tensor.dtype!r}")
     return tensor
 
 
 def _axis(content: object, place: str) -> int | str:
-    if isinstance(content, bool) or not isinstance(content, int | str):
+    if isinstance(content, str) and content.strip():
+        return content
+    if isinstance(content, bool | str) or not isinstance(content, int | float):
         raise ManifestError(f"{place}: an axis is a number or a name, found {content!r}")
-    return content
+    return whole(content, place)
 
 
 def _tokenizer(content: object, place: str) -> Tokenizer:
     fields = Fields(content, place)
-    tokenizer = Tokenizer(_file(fields), fields.sha256("sha256"), fields.integer("bytes"), fields.integer("max_tokens"))
+    tokenizer = Tokenizer(
+        fields.file("file"), fields.sha256("sha256"), fields.integer("bytes"), fields.integer("max_tokens")
+    )
     fields.done()
     return tokenizer
 
@@ -100,25 +150,18 @@ def _variant(content: object, place: str) -> Variant:
     fields = Fields(content, place)
     variant = Variant(
         name=place.rpartition(".")[2],
-        file=_file(fields),
+        file=fields.file("file"),
         sha256=fields.sha256("sha256"),
         bytes=fields.integer("bytes"),
         opset=fields.integer("opset"),
         ir_version=fields.integer("ir_version"),
         shipped=fields.flag("shipped"),
         quantisation=fields.text("quantisation"),
-        tolerance=fields.named("tolerance", table(number)),
-        parity=fields.named("parity", table(number)),
-        producers=fields.named("producers", scalar),
+        tolerance=fields.table("tolerance", table(number)),
+        parity=fields.table("parity", table(number)),
+        producers=fields.table("producers", scalar),
         benchmark=fields.optional("benchmark", table(scalar)),
+        quality=fields.optional("quality", table(scalar)) or {},
     )
     fields.done()
     return variant
-
-
-def _file(fields: Fields) -> str:
-    name = fields.text("file")
-    path = PurePosixPath(name)
-    if path.is_absolute() or ".." in path.parts or "\\" in name or ":" in name:
-        raise ManifestError(f"{fields.place}.file: expected a relative path with forward slashes, found {name!r}")
-    return name

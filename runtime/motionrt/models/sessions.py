@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections import defaultdict
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -14,7 +14,7 @@ import numpy.typing as npt
 
 from motionrt.models.checks import verified
 from motionrt.models.locate import find_manifest
-from motionrt.models.manifest import Manifest, Model
+from motionrt.models.manifest import Manifest, Model, Variant
 from motionrt.models.reading import load_manifest
 from motionrt.models.threads import thread_count
 
@@ -56,20 +56,19 @@ class Sessions:
         return self.manifest.model(name)
 
     def session(self, model: str, variant: str | None = None) -> InferenceSession:
-        """The session of a variant, opened at the first call.
+        """The session of a variant, opened at the first call; which one a name means: :meth:`Manifest.variant`.
 
         Raises:
             ModelNotFoundError: no such model or variant.
             ModelFileError, ChecksumError: its file is missing, or not the one that the manifest means.
         """
-        chosen = self.model(model).variant(variant)
+        chosen = self.manifest.variant(model, variant)
         key = model, chosen.name
         with self._lock:
             lock = self._locks[key]
         with lock:
             if key not in self._opened:
-                path = verified(self.manifest, chosen.file, chosen.sha256, shipped=chosen.shipped)
-                self._opened[key] = self._open(path)
+                self._opened[key] = self._open_verified(chosen)
             return self._opened[key]
 
     def prepare(self, *models: str, variant: str | None = None) -> None:
@@ -90,11 +89,42 @@ class Sessions:
         with suppress(Exception):
             self.session(model, variant)
 
+    def _open_verified(self, chosen: Variant) -> InferenceSession:
+        """Open a file while it is hashed; a session is given once its file is known to be the right one."""
+        opening = Opening(lambda: self._open(self.manifest.locate(chosen.file)))
+        try:
+            verified(self.manifest, chosen)
+        finally:
+            opening.join()
+        return opening.result()
+
     def _open(self, path: Path) -> InferenceSession:
         import onnxruntime
 
         options = self._options if self._options is not None else quiet_options(self.threads)
         return onnxruntime.InferenceSession(str(path), options, providers=["CPUExecutionProvider"])
+
+
+class Opening(threading.Thread):
+    """A session on its way; `result` gives it, or raises what went wrong, when the thread has ended."""
+
+    def __init__(self, open_session: Callable[[], InferenceSession]) -> None:
+        super().__init__(name="motionrt-open", daemon=True)
+        self._open = open_session
+        self._found: list[InferenceSession | Exception] = []
+        self.start()
+
+    def run(self) -> None:
+        try:
+            self._found.append(self._open())
+        except Exception as error:  # noqa: BLE001  # it is raised to whoever asked for the session
+            self._found.append(error)
+
+    def result(self) -> InferenceSession:
+        found = self._found[0]
+        if isinstance(found, Exception):
+            raise found
+        return found
 
 
 def quiet_options(threads: int) -> SessionOptions:

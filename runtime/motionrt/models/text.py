@@ -20,7 +20,9 @@ if TYPE_CHECKING:
 FloatArray = npt.NDArray[np.float32]
 IntArray = npt.NDArray[np.int64]
 
-MODEL = "sentence_encoder"
+MODEL = "tmr_text"
+EMBED = "embed"
+"""Input of the model that need not be given; false leaves out what only a search needs."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,7 +41,10 @@ class SentenceFeatures:
 
 
 class SentenceEncoder:
-    """The frozen sentence encoder. Texts go in one by one: features never depend on neighbours."""
+    """The frozen sentence encoder, the first part of the text model.
+
+    Texts go in one by one: features never depend on neighbours.
+    """
 
     def __init__(self, sessions: Sessions, variant: str | None = None) -> None:
         self._sessions, self._variant = sessions, variant
@@ -54,14 +59,17 @@ class SentenceEncoder:
         """
         return np.array(self._open_tokenizer().encode(checked_text(text)).ids, dtype=np.int64)
 
+    def feeds(self, text: str) -> dict[str, IntArray]:
+        """What the model is given for one text; raises as `tokens` does."""
+        ids = self.tokens(text)[None]
+        return {"input_ids": ids, "attention_mask": np.ones_like(ids)}
+
     def encode(self, text: str) -> SentenceFeatures:
         """Features of one text; raises as `tokens` does."""
-        ids = self.tokens(text)[None]
-        mask = np.ones_like(ids)
-        feeds = {"input_ids": ids, "attention_mask": mask}
+        feeds = self.feeds(text)
         names = ["token_features", "sentence_embedding"]
-        features, sentence = self._sessions.run(MODEL, names, feeds, self._variant)
-        return SentenceFeatures(features, mask, sentence[0])
+        features, sentence = self._sessions.run(MODEL, names, {**feeds, EMBED: np.array(False)}, self._variant)
+        return SentenceFeatures(features, feeds["attention_mask"], sentence[0])
 
     def embed(self, texts: Sequence[str]) -> FloatArray:
         """Unit sentence embeddings ``(N, 384)``; raises as `tokens` does."""
@@ -83,7 +91,7 @@ def load_tokenizer(sessions: Sessions, model: str = MODEL) -> Tokenizer:
     info = sessions.model(model).tokenizer
     if info is None:
         raise ManifestError(f"{sessions.manifest.path}: model '{model}' names no tokenizer; export the models again")
-    tokenizer = Tokenizer.from_file(str(verified(sessions.manifest, info.file, info.sha256)))
+    tokenizer = Tokenizer.from_file(str(verified(sessions.manifest, info)))
     tokenizer.no_padding()
     tokenizer.enable_truncation(info.max_tokens)
     return tokenizer

@@ -12,16 +12,15 @@ import numpy as np
 import numpy.typing as npt
 
 from motionrt.errors import InvalidInputError
-from motionrt.models import text as sentences
 from motionrt.models.sessions import Arrays, Sessions
-from motionrt.models.text import SentenceEncoder, checked_texts
+from motionrt.models.text import MODEL, SentenceEncoder, checked_texts
 
 if TYPE_CHECKING:
     from onnxruntime import SessionOptions
 
 FloatArray = npt.NDArray[np.float32]
 
-TEXT, MOTION, DECODER = "tmr_text", "tmr_motion", "tmr_decoder"
+TEXT, MOTION, DECODER = MODEL, "tmr_motion", "tmr_decoder"
 DIMENSION = 256
 FEATURES = 263
 
@@ -64,8 +63,9 @@ class TextMotionModel:
     @cached_property
     def fingerprint(self) -> str:
         """sha256 over the checksums of the encoders: embeddings of equal fingerprints may be compared."""
-        models = [self.sessions.model(name) for name in (sentences.MODEL, TEXT, MOTION)]
-        lines = [f"{model.name} {model.variant(self.variant).sha256}\n" for model in models]
+        manifest = self.sessions.manifest
+        chosen = {name: manifest.variant(name, self.variant) for name in (TEXT, MOTION)}
+        lines = [f"{name} {variant.sha256}\n" for name, variant in chosen.items()]
         return hashlib.sha256("".join(lines).encode("ascii")).hexdigest()
 
     def embed_text(self, texts: Sequence[str]) -> FloatArray:
@@ -109,13 +109,15 @@ class TextMotionModel:
         mask = np.ones((1, frames), dtype=bool)
         return np.concatenate([self._decoded(row[None], mask) for row in rows])
 
-    def _text(self, text: str, output: str) -> FloatArray:
-        if not self._prepared:  # both models open while the tokenizer is read
+    def prepare(self) -> None:
+        """Start to open what texts need, beside whatever else is done meanwhile; what goes wrong is raised later."""
+        if not self._prepared:
             self._prepared = True
-            self.sessions.prepare(sentences.MODEL, TEXT, variant=self.variant)
-        features = self.sentences.encode(text)
-        feeds: Arrays = {"token_features": features.token_features, "attention_mask": features.attention_mask}
-        return self.sessions.run(TEXT, [output], feeds, self.variant)[0]
+            self.sessions.prepare(TEXT, variant=self.variant)
+
+    def _text(self, text: str, output: str) -> FloatArray:
+        self.prepare()  # the model opens while the tokenizer is read
+        return self.sessions.run(TEXT, [output], self.sentences.feeds(text), self.variant)[0]
 
     def _motion(self, features: FloatArray, output: str) -> FloatArray:
         mask = np.ones((1, len(features)), dtype=bool)

@@ -32,17 +32,20 @@ class TransitionModel:
         Args:
             frames: ``(B, 120, 219)`` ``ccf219`` at 30 fps in the targets' frames (the pose of frame 119 stands at the
                 origin, heading +Z); what hidden frames hold does not matter.
-            hidden: ``(B, 120)`` bool; the first and the last frame must be visible.
+            hidden: ``(B, 120)`` bool: one gap in every window, of any length, whose first frame is frame 60; the last
+                frame must be visible.
 
         Raises:
-            InvalidInputError: another shape, or an end of a window is hidden.
+            InvalidInputError: another shape, another gap, or the end of a window is hidden.
         """
         if frames.shape[1:] != (WINDOW, ccf219.WIDTH) or hidden.shape != frames.shape[:2]:
             expected = f"(B, {WINDOW}, {ccf219.WIDTH}) and (B, {WINDOW})"
             raise InvalidInputError(
                 f"frames and hidden must have the shapes {expected}, not {frames.shape} and {hidden.shape}"
             )
-        if hidden[:, [0, -1]].any():
-            raise InvalidInputError("the first and the last frame of a window must be visible")
+        if hidden[:, :SEED].any() or hidden[:, -1].any() or (hidden[:, SEED + 1 :] & ~hidden[:, SEED:-1]).any():
+            raise InvalidInputError(
+                f"a window has one gap, from frame {SEED} on, and its last frame must be visible: see hidden"
+            )
         feeds = {"frames": np.ascontiguousarray(frames, np.float32), "hidden": np.asarray(hidden, bool)}
         return self.sessions.run(TRANSNET, ["motion"], feeds, self.variant)[0]

@@ -19,5 +19,7 @@ def smoothed(features: FloatArray, deviation: float = DEVIATION) -> FloatArray:
     longer = np.concatenate([before, features, after])
     weights = np.exp(-0.5 * (np.arange(-reach, reach + 1) / deviation) ** 2)
     weights /= weights.sum()
-    parts = (weight * longer[first : first + len(features)] for first, weight in enumerate(weights))
-    return np.asarray(sum(parts, np.zeros_like(features)), np.float32)
+    smooth = np.zeros_like(features)
+    for first, weight in enumerate(weights.astype(features.dtype)):
+        smooth += weight * longer[first : first + len(features)]
+    return smooth

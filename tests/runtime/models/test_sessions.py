@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import subprocess
 import sys
 import threading
@@ -11,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import onnxruntime
 import pytest
-from tiny_models import TINY
+from tiny_models import TINY, edited
 
 from motionrt.models import Sessions, TextMotionModel, sessions
 
@@ -60,6 +61,24 @@ def test_many_threads_get_the_answers_of_one() -> None:
     with ThreadPoolExecutor(4) as pool:
         together = list(pool.map(lambda text: model.embed_text([text])[0], texts))
     np.testing.assert_array_equal(np.stack(together), alone)
+
+
+def test_what_is_no_model_is_refused_by_its_reader_when_the_manifest_means_it(tmp_path: Path) -> None:
+    rubbish = b"no model"
+    entry = {"sha256": hashlib.sha256(rubbish).hexdigest(), "bytes": len(rubbish)}
+    manifest = edited(tmp_path, lambda c: c["models"]["tmr_text"]["variants"]["tiny"].update(entry))
+    (manifest.parent / "models" / "tmr_text.tiny.onnx").write_bytes(rubbish)
+    with pytest.raises(Exception, match="INVALID_PROTOBUF"):
+        Sessions(manifest).session("tmr_text")
+
+
+def test_embedding_text_waits_for_no_gallery_and_no_file_format() -> None:
+    code = (
+        f"import sys; from motionrt import Runtime; Runtime({str(TINY)!r}).embed_text('walk'); "
+        "print([n for n in ('motionrt.retrieval', 'motionrt.formats') if n in sys.modules])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"
 
 
 def test_default_options_are_quiet() -> None:

@@ -20,16 +20,17 @@ def manifest() -> Manifest:
 def test_every_shipped_file_is_whole(manifest: Manifest) -> None:
     reports = verify(manifest)
     assert [report for report in reports if not report.ok] == []
-    assert {r.model for r in reports} >= {"sentence_encoder", "tmr_text", "tmr_motion", "tmr_decoder"}
+    assert {r.model for r in reports} >= {"tmr_text", "tmr_motion", "tmr_decoder"}
 
 
 def test_sizes_and_licences_are_told(manifest: Manifest) -> None:
     for model in manifest.models.values():
         variant = model.variant()
-        assert variant.shipped
-        assert manifest.locate(variant.file).stat().st_size == variant.bytes
+        if variant.shipped:
+            assert manifest.locate(variant.file).stat().st_size == variant.bytes
         assert model.licence
         assert model.training_data
+    assert sum(model.variant().shipped for model in manifest.models.values()) >= 8
 
 
 def test_measured_parity_is_within_the_promise(manifest: Manifest) -> None:
@@ -44,7 +45,9 @@ def test_measured_parity_is_within_the_promise(manifest: Manifest) -> None:
 def test_sessions_take_and_give_what_the_manifest_says(manifest: Manifest) -> None:
     sessions = Sessions(manifest.path, threads=1)
     kinds = {"tensor(float)": "float32", "tensor(int64)": "int64", "tensor(bool)": "bool"}
-    for model in manifest.models.values():
+    built = [model for model in manifest.models.values() if manifest.locate(model.variant().file).is_file()]
+    assert {model.name for model in built} >= {m.name for m in manifest.models.values() if m.variant().shipped}
+    for model in built:
         session = sessions.session(model.name)
         for found, told in ((session.get_inputs(), model.inputs), (session.get_outputs(), model.outputs)):
             assert [(x.name, kinds[x.type], tuple(x.shape)) for x in found] == [
@@ -61,6 +64,9 @@ def test_sentences_of_one_meaning_are_nearer_than_others(manifest: Manifest) -> 
 
 
 def test_a_text_and_a_decoded_motion_go_round(manifest: Manifest) -> None:
+    decoder = manifest.variant("tmr_decoder")
+    if not manifest.locate(decoder.file).is_file():
+        pytest.skip(f"{decoder.file} is not shipped, and not built here: python -m motionrt_export all")
     model = TextMotionModel(manifest.path, threads=1)
     motion = model.decode(model.text_latents(["a person walks forward"]), 60)
     assert np.isfinite(motion).all()

@@ -39,6 +39,18 @@ def test_features_are_those_of_the_formula(encoder: SentenceEncoder) -> None:
     assert found.attention_mask.tolist() == [[1] * len(ids)]
 
 
+def test_features_are_had_without_what_a_search_needs(monkeypatch: pytest.MonkeyPatch) -> None:
+    sessions = Sessions(TINY, threads=1)
+    asked: list[dict[str, np.ndarray]] = []
+    run = sessions.run
+    monkeypatch.setattr(sessions, "run", lambda *given: (asked.append(given[2]), run(*given))[1])
+    SentenceEncoder(sessions).encode("walk")
+    assert not asked[0]["embed"]
+    ids = {name: asked[0][name] for name in ("input_ids", "attention_mask")}
+    whole, none = run("tmr_text", ["latent"], ids)[0], run("tmr_text", ["latent"], asked[0])[0]
+    assert (whole.shape, none.shape) == ((1, 256), (0, 256))
+
+
 def test_a_long_text_is_cut_at_128_tokens(encoder: SentenceEncoder) -> None:
     ids = encoder.tokens("walk " * 500)
     assert len(ids) == 128

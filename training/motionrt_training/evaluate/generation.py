@@ -120,7 +120,7 @@ def parser() -> argparse.ArgumentParser:
     table = _command(commands, "pairs", pairs, corpus=True)
     table.add_argument("--row", action="append", default=[], type=_named, metavar="NAME=[KIND:]PATH", help="a line")
     table.add_argument("--encoder", type=Path, help="checkpoint whose motion encoder gives the TEMOS score")
-    table.add_argument("--sentences", type=Path, default=Path("models/sentence_encoder.int8.onnx"), help="text encoder")
+    table.add_argument("--sentences", type=Path, default=Path("models/tmr_text.int8.onnx"), help="text encoder")
     table.add_argument("--samples", type=int, default=0, help="samples of every pair, beside the mean latent's motion")
     table.add_argument("--split", default="test", help="train, val or test")
     table.add_argument("--longest", type=int, default=LONGEST, help="frames of a pair at most (default: %(default)s)")

@@ -89,7 +89,7 @@ weights with the best validation. "TEMOS-style" is training without the contrast
 every other pair as a negative.
 
 Each was trained with `python -m motionrt_training.recipes.tmr --corpus runs/cmu.npz --out runs/NAME --backbone onnx
---backbone-path models/sentence_encoder.int8.onnx --steps 700 --lr 4e-4 --warmup 100 --ema 0.99 --dropout 0.15
+--backbone-path models/tmr_text.int8.onnx --steps 700 --lr 4e-4 --warmup 100 --ema 0.99 --dropout 0.15
 --token-dropout 0.1 --crop 0.5 --threads 1 --validate-every 100`, with `--no-contrastive` and `--threshold none` for the
 second and third, and evaluated by naming each `runs/NAME/best.pt` with `--baseline "TEXT=PATH"`."""
 

@@ -214,7 +214,7 @@ def parser() -> argparse.ArgumentParser:
     result = recipe_parser(__doc__ or "", Schedule, DenoiserSettings, ActionData)
     result.add_argument("--captions-file", type=Path, required=True, help="captions.jsonl with labels and parts")
     result.add_argument("--temos", type=Path, required=True, help="trained TEMOS: best.pt or models/temos.safetensors")
-    result.add_argument("--encoder", type=Path, default=Path("models/sentence_encoder.int8.onnx"), help="text encoder")
+    result.add_argument("--encoder", type=Path, default=Path("models/tmr_text.int8.onnx"), help="text encoder")
     return result
 
 

@@ -43,7 +43,7 @@ def parser() -> argparse.ArgumentParser:
     """The command line, every setting with its default."""
     result = recipe_parser(__doc__ or "", Schedule, TemosSettings, ActionData)
     result.add_argument("--captions-file", type=Path, required=True, help="captions.jsonl with labels and parts")
-    result.add_argument("--encoder", type=Path, default=Path("models/sentence_encoder.int8.onnx"), help="text encoder")
+    result.add_argument("--encoder", type=Path, default=Path("models/tmr_text.int8.onnx"), help="text encoder")
     result.add_argument("--text-from", type=Path, help="a TMR whose text encoder this one begins as")
     return result
 
