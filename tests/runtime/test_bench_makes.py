@@ -8,8 +8,10 @@ from tiny_models import TINY, TINY_GENERATORS
 
 from motionrt import Motion, Runtime
 from motionrt.bench import worker
-from motionrt.bench.makes import BODY_PARTS, COMPOSE, FRAMES, compose_call, generate_calls, generate_case
-from motionrt.bench.roads import ROADS, Setting
+from motionrt.bench.makes import BODY_PARTS, COMPOSE, DECODE, FRAMES, compose_call, generate_calls, generate_case
+from motionrt.bench.roads import ROADS
+from motionrt.bench.setting import Setting
+from motionrt.bench.timing import Turns
 from motionrt.bench.workload import TEXTS, Workload
 
 CASES = [generate_case("diffusion"), generate_case("vae")]
@@ -30,6 +32,12 @@ def test_texts_become_the_motions_that_the_runtime_makes(setting: Setting) -> No
             np.testing.assert_array_equal(made.rotations, expected.rotations)
 
 
+def test_the_decoder_alone_gives_raw_features(setting: Setting) -> None:
+    found = np.asarray(ROADS["decode"].cases(setting)[DECODE].call())
+    assert found.shape == (1, FRAMES, 135)
+    assert np.isfinite(found).all()
+
+
 def test_a_composition_is_as_long_as_its_layers(setting: Setting) -> None:
     made = compose_call(setting.runtime)()
     assert isinstance(made, Motion)
@@ -37,12 +45,12 @@ def test_a_composition_is_as_long_as_its_layers(setting: Setting) -> None:
 
 
 def test_every_road_has_its_cases(setting: Setting) -> None:
-    cases = [list(ROADS[name].cases(setting)) for name in ("generate", "compose", "parts")]
-    assert cases == [CASES, [COMPOSE], [BODY_PARTS]]
+    cases = [list(ROADS[name].cases(setting)) for name in ("generate", "decode", "compose", "parts")]
+    assert cases == [CASES, [DECODE], [COMPOSE], [BODY_PARTS]]
     assert not setting.missing(ROADS["generate"].models)
 
 
 def test_without_models_motions_are_composed_all_the_same() -> None:
-    found = worker.measure(str(TINY), 1, None, rounds=1, calls=1, only=["generate", "compose", "parts"])
+    found = worker.measure(str(TINY), 1, turns=Turns(1, 1, 0), only=["generate", "compose", "parts"])
     assert [case["case"] for case in found["cases"]] == [COMPOSE, BODY_PARTS]
     assert found["left_out"]["generate"].startswith("no model temos_text, temos_decoder")

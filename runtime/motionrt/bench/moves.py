@@ -20,7 +20,7 @@ from motionrt.motion import Motion
 from motionrt.motion.features import ccf219
 from motionrt.motion.rotations import Array
 
-CROWDS = (1, 8, 64)  # characters that walk together
+CROWDS = (1, 2, 4, 8, 16, 32, 64)  # characters that walk together
 TRANSITION, POSE, PERFORM = "transition, 60 frames", "pose, a hand and two feet", "perform, per frame"
 Keypoints = Mapping[str, tuple[float, float, float]]
 

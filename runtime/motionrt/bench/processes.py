@@ -1,4 +1,4 @@
-"""Processes with a fixed number of threads: the benchmark itself, and cold starts."""
+"""Processes with a fixed number of threads: the benchmark itself, and whatever has to start afresh."""
 
 from __future__ import annotations
 
@@ -10,48 +10,33 @@ import time
 from collections.abc import Sequence
 from typing import Any
 
-import numpy as np
-
 from motionrt.errors import MotionRTError
 
 _THREAD_VARIABLES = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")
 
 
-def run_worker(arguments: dict[str, Any]) -> dict[str, Any]:
-    """The result of :mod:`motionrt.bench.worker` in a process of its own.
+def run_module(module: str, arguments: dict[str, Any]) -> dict[str, Any]:
+    """What a module of motionrt.bench prints as its last line, JSON, in a process of its own.
+
+    Args:
+        module: its full name.
+        arguments: become its only argument, as JSON; ``threads`` of them is what every library may use.
 
     Raises:
         MotionRTError: the process failed; the message is its last line.
     """
-    command = [sys.executable, "-m", "motionrt.bench.worker", json.dumps(arguments)]
     done = subprocess.run(
-        command,
+        [sys.executable, "-m", module, json.dumps(arguments)],
         capture_output=True,
         text=True,
         encoding="utf-8",
-        env=_environment(arguments["threads"]),
+        env=environment(arguments["threads"]),
         check=False,
     )
     if done.returncode:
         raise MotionRTError(f"the benchmark failed: {_last_line(done.stderr)}")
     result: dict[str, Any] = json.loads(_last_line(done.stdout))
     return result
-
-
-def cold_starts(models: str | None, threads: int, runs: int) -> dict[str, Any]:
-    """Seconds from starting Python to the first embedded text, median of ``runs``, and peak memory."""
-    arguments = json.dumps({"models": models, "threads": threads})
-    command = [sys.executable, "-m", "motionrt.bench.first_answer", arguments]
-    measured = [first_line(command, threads) for _ in range(runs)]
-    memory: dict[str, Any] = {}
-    for line in measured[0][1]:
-        memory |= json.loads(line)
-    return {
-        "seconds": float(np.median([seconds for seconds, _ in measured])),
-        "runs": runs,
-        "peak_mb_text": memory.get("text_mb"),
-        "peak_mb_text_and_motion": memory.get("motion_mb"),
-    }
 
 
 def first_line(command: Sequence[str], threads: int) -> tuple[float, list[str]]:
@@ -67,7 +52,7 @@ def first_line(command: Sequence[str], threads: int) -> tuple[float, list[str]]:
         stderr=subprocess.PIPE,
         text=True,
         encoding="utf-8",
-        env=_environment(threads),
+        env=environment(threads),
     ) as process:
         first = process.stdout.readline() if process.stdout else ""
         seconds = time.perf_counter() - started
@@ -77,7 +62,20 @@ def first_line(command: Sequence[str], threads: int) -> tuple[float, list[str]]:
     return seconds, [first, *rest.splitlines()]
 
 
-def _environment(threads: int) -> dict[str, str]:
+def whole(command: Sequence[str], threads: int) -> float:
+    """Seconds that a command takes from start to end; MotionRTError if it fails."""
+    started = time.perf_counter()
+    done = subprocess.run(
+        command, capture_output=True, text=True, encoding="utf-8", env=environment(threads), check=False
+    )
+    seconds = time.perf_counter() - started
+    if done.returncode:
+        raise MotionRTError(f"{' '.join(command)} failed: {_last_line(done.stderr)}")
+    return seconds
+
+
+def environment(threads: int) -> dict[str, str]:
+    """The environment of a process whose libraries may use so many threads."""
     return {**os.environ, **dict.fromkeys(_THREAD_VARIABLES, str(threads)), "PYTHONIOENCODING": "utf-8"}
 
 

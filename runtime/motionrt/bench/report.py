@@ -1,139 +1,174 @@
-"""A whole benchmark: the machine, every thread count, cold starts; as data and as text."""
+"""A whole benchmark: the machine, every thread count, cold starts, memory, limits; as data."""
 
 from __future__ import annotations
 
 import platform
-import statistics
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict, dataclass, field, replace
 from importlib import metadata
 from pathlib import Path
 from typing import Any
 
+from motionrt.bench.footprint import install_sizes
+from motionrt.bench.graphs import graph_case
+from motionrt.bench.limits import against_times
+from motionrt.bench.memory import peaks
 from motionrt.bench.moves import PERFORM
-from motionrt.bench.processes import cold_starts, first_line, run_worker
+from motionrt.bench.processes import run_module
 from motionrt.bench.roads import COLD, chosen
+from motionrt.bench.starts import cold_starts
+from motionrt.bench.timing import Turns
+from motionrt.bench.workload import SIZES
 from motionrt.locomotion.walking import FPS
 from motionrt.models.threads import usable_cpus
 
-ROUNDS, CALLS, COLD_RUNS = 10, 10, 5
-QUICK = (1, 2, 1)
+Note = Callable[[str], None]
+Found = dict[str, Any]
+COLD_RUNS = 3
 
 
-def run_bench(
-    threads: Sequence[int],
-    *,
-    models: str | None = None,
-    against: str | None = None,
-    quick: bool = False,
-    only: Sequence[str] | None = None,
-    note: Callable[[str], None] = lambda _: None,
-) -> dict[str, Any]:
-    """Measure the roads called ``only``, or all, at every thread count; ``note`` is told what is going on.
+@dataclass(frozen=True)
+class Plan:
+    """What is to be measured.
+
+    Attributes:
+        threads: thread counts, each in a process of its own.
+        models: the manifest or its folder, by default the shipped one.
+        variant: which files of the models, by default those that the manifest prefers.
+        against: names of rivals, which take turns with motionrt in the same process.
+        only: names of roads; None is all.
+        sizes: of the galleries that are searched.
+        turns: how often, and in which order.
+        strict: time everything a second time, call by call in turn.
+        limits: measure the machine's peaks, too, and how far every road is from them.
+        limit_s: for how long a road is gone for that.
+        cold_runs: fresh processes for the cold start.
+    """
+
+    threads: Sequence[int] = (1, 2)
+    models: str | None = None
+    variant: str | None = None
+    against: Sequence[str] = ()
+    only: Sequence[str] | None = None
+    sizes: Sequence[int] = SIZES
+    turns: Turns = field(default_factory=Turns)
+    strict: bool = False
+    limits: bool = False
+    limit_s: float = 1.0
+    cold_runs: int = COLD_RUNS
+
+
+def run_bench(plan: Plan, note: Note = lambda _: None) -> Found:
+    """Measure; ``note`` is told what is going on.
 
     Raises:
         InvalidInputError: no road has that name.
         MotionRTError: a benchmark process failed.
     """
-    roads = list(chosen(only))
-    rounds, calls, cold_runs = QUICK if quick else (ROUNDS, CALLS, COLD_RUNS)
-    runs = []
-    for count in threads:
-        note(f"measuring, threads: {count}")
-        asked = {"models": models, "threads": count, "against": against, "rounds": rounds, "calls": calls}
-        found = run_worker({**asked, "only": roads})
-        run = {"threads": count, "cases": found["cases"], "left_out": found["left_out"]}
-        if COLD in roads and COLD not in found["left_out"]:
-            note(f"starting cold, threads: {count}")
-            run["cold_start"] = _cold(models, count, cold_runs, against, found["rival_cold_start"])
-        runs.append({**run, **derived(found["cases"])})
-    return {"machine": machine(), "versions": versions(), "runs": runs}
+    chosen(plan.only)  # before anything starts
+    runs = [_run(plan, count, note) for count in plan.threads]
+    return {
+        "machine": machine(),
+        "versions": versions(),
+        "settings": {**asdict(plan.turns), "against": list(plan.against), "variant": plan.variant},
+        "install_mb": install_sizes(),
+        "runs": runs,
+        "models": model_figures(runs),
+    }
 
 
-def _cold(
-    models: str | None, threads: int, runs: int, against: str | None, rival: Sequence[str] | None
-) -> dict[str, Any]:
-    cold = cold_starts(models, threads, runs)
-    if rival:
-        seconds = _median_start(rival, threads, min(runs, 3))
-        cold["against"] = {"name": against, "seconds": seconds, "ratio": seconds / cold["seconds"]}
-    return cold
+def _run(plan: Plan, threads: int, note: Note) -> Found:
+    note(f"measuring, threads: {threads}")
+    common = {"models": plan.models, "threads": threads, "variant": plan.variant}
+    asked = {"against": list(plan.against), "turns": asdict(plan.turns), "strict": plan.strict, "sizes": plan.sizes}
+    only = None if plan.only is None else list(plan.only)
+    found = run_module("motionrt.bench.worker", {**common, **asked, "only": only})
+    run = {"threads": threads, "cases": found["cases"], "left_out": found["left_out"], "called": found["models"]}
+    if COLD in chosen(plan.only) and COLD not in found["left_out"]:
+        note(f"starting cold, threads: {threads}")
+        rivals = found["rival_cold_starts"]
+        run["cold_start"] = cold_starts(plan.models, threads, plan.cold_runs, rivals, plan.variant)
+        if threads == plan.threads[0]:
+            run["peak_mb"] = peaks(plan.models, threads, plan.variant, list(found["left_out"]), plan.only)
+    if plan.limits:
+        note(f"looking for the limits, threads: {threads}")
+        limits = run_module(
+            "motionrt.bench.limits", {**common, "only": only, "sizes": plan.sizes, "seconds": plan.limit_s}
+        )
+        run["limits"] = {**limits, "roads": against_times(limits["roads"], found["cases"])}
+    return {**run, **derived(found["cases"])}
 
 
-def _median_start(command: Sequence[str], threads: int, runs: int) -> float:
-    return statistics.median(first_line(command, threads)[0] for _ in range(runs))
+def quick(plan: Plan) -> Plan:
+    """The same with a few calls only: shows that it runs, not how fast."""
+    return replace(plan, turns=Turns(rounds=1, calls=2, warm=1), limit_s=0.05, cold_runs=1)
 
 
-def machine() -> dict[str, Any]:
-    """The processor, and how many of its cores this process may use."""
-    return {"system": platform.platform(), "processor": _processor(), "cores": usable_cpus()}
-
-
-def versions() -> dict[str, str]:
-    """Versions of Python and of the packages that matter, where they are installed."""
-    names = ("motionrt", "numpy", "onnxruntime", "tokenizers", "torch")
-    installed = {name: version for name in names if (version := _version(name)) is not None}
-    return {"python": platform.python_version(), **installed}
-
-
-def derived(cases: Sequence[dict[str, Any]]) -> dict[str, Any]:
+def derived(cases: Sequence[Found]) -> Found:
     """What follows from the times: how many characters can be animated, and how fast a performance is made.
 
     ``characters_at_30_fps`` is 1000 / (30 x p50 in ms of a step of one character) in the best of the cases that walk.
     """
     walks = [case for case in cases if case["case"].startswith("walk,")]
-    out: dict[str, Any] = {}
+    out: Found = {}
     if walks:
         best = min(walks, key=lambda case: case["p50_ms"])
-        out["characters_at_30_fps"] = {"count": _characters(best), "case": best["case"]}
-        rivals = [case["against"] for case in walks if "against" in case]
-        if rivals:
-            count = max(map(_characters, rivals))
-            out["characters_at_30_fps"]["against"] = {"count": count, "ratio": rivals_ratio(best, rivals)}
+        out["characters_at_30_fps"] = {
+            "count": _characters(best["p50_ms"]),
+            "case": best["case"],
+            "against": {name: _crowd(ms, best["p50_ms"]) for name, ms in _best_rivals(walks).items()},
+        }
     for case in cases:
         if case["case"] == PERFORM:
             out["perform_times_real_time"] = 1000 / (FPS * case["p50_ms"])
     return out
 
 
-def rivals_ratio(best: dict[str, Any], rivals: Sequence[dict[str, Any]]) -> float:
-    """The rival's best time over ours."""
-    return float(min(rival["p50_ms"] for rival in rivals) / best["p50_ms"])
+def _best_rivals(walks: Sequence[Found]) -> dict[str, float]:
+    """Every rival's shortest time for a character."""
+    found: dict[str, float] = {}
+    for walk in walks:
+        for name, timing in walk["against"].items():
+            found[name] = min(timing["p50_ms"], found.get(name, float("inf")))
+    return found
 
 
-def _characters(timed: dict[str, Any]) -> int:
-    return int(1000 / (FPS * timed["p50_ms"]))
+def _crowd(rival_ms: float, ours_ms: float) -> Found:
+    return {"count": _characters(rival_ms), "ratio": rival_ms / ours_ms}
 
 
-def rows(run: dict[str, Any]) -> list[list[str]]:
-    """Table rows of one thread count: what, p50, p95, rate, and the rival's p50 and the ratio.
+def _characters(p50_ms: float) -> int:
+    return int(1000 / (FPS * p50_ms))
 
-    Times of walks are those of one character, times of performances those of one frame.
+
+def model_figures(runs: Sequence[Found]) -> dict[str, Found]:
+    """For the manifest: of every model that was called alone, p50, p95, and torch's p50 and ratio where it took part,
+    at the first thread count.
     """
-    table = []
-    for case in run["cases"]:
-        p50 = case["p50_ms"]
-        table.append([case["case"], _ms(p50), _ms(case["p95_ms"]), f"{1000 / p50:,.0f}/s", *_against(case, "p50_ms")])
-    return table + _derived_rows(run) + (_cold_rows(run["cold_start"]) if "cold_start" in run else [])
+    if not runs:
+        return {}
+    cases = {case["case"]: case for case in runs[0]["cases"]}
+    return {name: _figures(cases[graph_case(name)], call, runs[0]) for name, call in runs[0]["called"].items()}
 
 
-def _derived_rows(run: dict[str, Any]) -> list[list[str]]:
-    table = []
-    if crowd := run.get("characters_at_30_fps"):
-        other = crowd.get("against")
-        against = [str(other["count"]), f"{other['ratio']:.1f} x"] if other else ["", ""]
-        table.append([f"characters at 30 fps ({crowd['case']})", str(crowd["count"]), "", "", *against])
-    if times := run.get("perform_times_real_time"):
-        table.append(["perform, times real time", f"{times:.1f} x", "", "", "", ""])
-    return table
+def _figures(case: Found, call: str, run: Found) -> Found:
+    found = {"p50_ms": case["p50_ms"], "p95_ms": case["p95_ms"]}
+    if torch := case["against"].get("torch"):
+        found |= {"torch_p50_ms": torch["p50_ms"], "ratio": torch["ratio"]}
+    rounded = {name: round(value, 3) for name, value in found.items()}
+    return {**rounded, "threads": run["threads"], "call": call}
 
 
-def _cold_rows(cold: dict[str, Any]) -> list[list[str]]:
-    against = _against(cold, "seconds", 1000)
-    table = [["cold start to first text", _ms(cold["seconds"] * 1000), "", "", *against]]
-    for key, label in (("peak_mb_text", "text"), ("peak_mb_text_and_motion", "text and motion")):
-        if cold[key] is not None:
-            table.append([f"peak memory, {label}", f"{cold[key]:.0f} MB", "", "", "", ""])
-    return table
+def machine() -> Found:
+    """The processor, and how many of its cores this process may use."""
+    return {"system": platform.platform(), "processor": _processor(), "cores": usable_cpus()}
+
+
+def versions() -> dict[str, str]:
+    """Versions of Python and of the packages that matter, where they are installed."""
+    names = ("motionrt", "numpy", "onnxruntime", "tokenizers", "torch", "transformers")
+    installed = {name: version for name in names if (version := _version(name)) is not None}
+    return {"python": platform.python_version(), **installed}
 
 
 def _version(name: str) -> str | None:
@@ -143,15 +178,6 @@ def _version(name: str) -> str | None:
         return None
 
 
-def _against(row: dict[str, Any], key: str, scale: float = 1.0) -> list[str]:
-    other = row.get("against")
-    return [_ms(other[key] * scale), f"{other['ratio']:.1f} x"] if other else ["", ""]
-
-
-def _ms(value: float) -> str:
-    return f"{value:.2f} ms" if value < 100 else f"{value:,.0f} ms"
-
-
 def _processor() -> str:
     info = Path("/proc/cpuinfo")
     if info.is_file():
@@ -159,3 +185,8 @@ def _processor() -> str:
             if line.startswith("model name"):
                 return line.partition(":")[2].strip()
     return platform.processor() or platform.machine()
+
+
+def rivals_of(found: Mapping[str, Any]) -> list[str]:
+    """The rivals that took part, in the order in which they were asked for."""
+    return list(found["settings"]["against"])

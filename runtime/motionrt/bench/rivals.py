@@ -10,7 +10,7 @@ from importlib.metadata import entry_points
 
 from motionrt.bench.timing import Call
 from motionrt.bench.workload import Workload
-from motionrt.errors import InvalidInputError
+from motionrt.errors import InvalidInputError, MissingDependencyError
 
 GROUP = "motionrt.bench_rivals"
 
@@ -20,8 +20,9 @@ class Rival:
     """Another way to do the same work.
 
     Attributes:
-        cases: for the names of :func:`motionrt.bench.workload.own_cases`, any of them, what the rival calls.
-        cold_start: a command that prints a line as soon as it has embedded its first text.
+        cases: for the names of cases of :mod:`motionrt.bench.roads`, any of them, what the rival calls.
+        cold_start: a command that prints a line as soon as it has embedded its first text; where that is a JSON
+            object, its ``peak_mb`` is the most memory that the process has held.
     """
 
     cases: Mapping[str, Call]
@@ -37,7 +38,8 @@ def open_rival(name: str, work: Workload, threads: int, models: str | None) -> R
     """The rival called ``name``, ready to run with that many threads.
 
     Raises:
-        InvalidInputError: nothing of that name is installed, or it cannot be loaded.
+        InvalidInputError: nothing of that name is installed.
+        MissingDependencyError: it needs a package that is not; the message says what to install.
     """
     found = list(entry_points(group=GROUP, name=name))
     if not found:
@@ -48,5 +50,10 @@ def open_rival(name: str, work: Workload, threads: int, models: str | None) -> R
     try:
         opener: OpenRival = found[0].load()
     except ImportError as error:
-        raise InvalidInputError(f"cannot compare with '{name}': {error}; try: pip install motionrt[export]") from error
+        raise MissingDependencyError(f"cannot compare with '{name}': {error}; try: {_remedy(name, error)}") from error
     return opener(work, threads, models)
+
+
+def _remedy(name: str, error: ImportError) -> str:
+    """What to install: the package that the rival is called after, where that is what is missing."""
+    return f"pip install {name}" if error.name == name != "torch" else "pip install motionrt[export]"

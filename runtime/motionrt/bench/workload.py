@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from motionrt.bench.moves import Moves
-from motionrt.bench.timing import Call
 from motionrt.motion.features import guo263
 from motionrt.motion.skeleton import FloatArray
-from motionrt.retrieval import Clip, ExactIndex, Gallery
+from motionrt.retrieval import Clip, Gallery
 from motionrt.retrieval.records import ModelStamp, window_table
 from motionrt.retrieval.windows import WINDOW_FRAMES
 
-TEXT, MOTION, ANSWER = "text encoding", "motion encoding, 200 frames", "text to top 10 of 10,000"
-SEARCH_SIZES = (1_000, 10_000, 100_000)
+SIZES = (1_000, 10_000, 100_000)  # of galleries; any others on request
 TOP = 10
 TEXTS = (
     "a person walks forward slowly and then turns around to the left",
@@ -25,45 +25,42 @@ TEXTS = (
 )
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class Workload:
-    """Inputs, made from a fixed seed.
+    """Inputs, made from a fixed seed when they are first asked for.
 
     Attributes:
+        sizes: how many vectors are searched, smallest first.
         texts: sentences of 12 to 16 tokens.
-        features: ``(200, 263)`` feature window.
-        vectors: ``(100000, 256)`` random unit vectors; a smaller search takes the first of them.
-        moves: what is walked, changed into and posed.
     """
 
-    texts: tuple[str, ...]
-    features: FloatArray
-    vectors: FloatArray
-    moves: Moves
+    sizes: tuple[int, ...] = SIZES
+    texts: tuple[str, ...] = TEXTS
 
     @classmethod
-    def standard(cls) -> Workload:
+    def standard(cls, sizes: Sequence[int] = SIZES) -> Workload:
         """The inputs of ``motionrt bench``."""
-        random = np.random.default_rng(0)
-        features = random.normal(size=(WINDOW_FRAMES, guo263.WIDTH)).astype(np.float32)
-        vectors = random.normal(size=(max(SEARCH_SIZES), 256)).astype(np.float32)
+        return cls(tuple(sorted(sizes)))
+
+    @cached_property
+    def features(self) -> FloatArray:
+        """``(200, 263)`` feature window."""
+        return np.random.default_rng(0).normal(size=(WINDOW_FRAMES, guo263.WIDTH)).astype(np.float32)
+
+    @cached_property
+    def vectors(self) -> FloatArray:
+        """``(largest size, 256)`` random unit vectors; a smaller search takes the first of them."""
+        vectors = np.random.default_rng(1).standard_normal((max(self.sizes), 256), np.float32)
         vectors /= np.linalg.norm(vectors, axis=1, keepdims=True)
-        return cls(TEXTS, features, vectors, Moves.standard())
+        return vectors
 
-    def gallery(self, model: str, fingerprint: str) -> Gallery:
-        """10,000 clips with the first of the vectors, as if that model had made them."""
-        count = 10_000
-        clips = tuple(Clip(f"{number:05d}", 10.0) for number in range(count))
-        windows = window_table([[(0.0, 10.0)]] * count)
-        return Gallery(clips, self.vectors[:count], windows, ModelStamp(model, fingerprint))
+    @cached_property
+    def moves(self) -> Moves:
+        """What is walked, changed into and posed."""
+        return Moves.standard()
 
-
-def search_case(size: int) -> str:
-    """Name of the search over ``size`` vectors."""
-    return f"search {size:,}"
-
-
-def search_call(vectors: FloatArray, query: FloatArray) -> Call:
-    """One exact search."""
-    index = ExactIndex(vectors)
-    return lambda: index.nearest(query, TOP)
+    def gallery(self, size: int, model: str, fingerprint: str) -> Gallery:
+        """So many clips with the first of the vectors, as if that model had made them."""
+        clips = tuple(Clip(f"{number:07d}", 10.0) for number in range(size))
+        windows = window_table([[(0.0, 10.0)]] * size)
+        return Gallery(clips, self.vectors[:size], windows, ModelStamp(model, fingerprint))

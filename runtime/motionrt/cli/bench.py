@@ -4,57 +4,135 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from motionrt.cli.console import print_json, print_table, say
 from motionrt.cli.options import add_json, command
 
-HELP = """measure encoding, search, walking, posing, making motion, cold start and memory on this machine
-Every figure is for one call, those of walks for one character and frame; --against takes turns in the same process at
-the same thread count."""
+if TYPE_CHECKING:
+    from motionrt.bench.report import Plan
+
+HELP = """measure every road, cold start and memory on this machine, alone or beside torch
+Every figure is for one call; those of walks are for one character and frame, those of clips for one clip. With
+--against others do the same work in turn in the same process at the same thread count: ten calls each after two
+untimed ones, as a game's loop calls in sequence; --strict adds figures for one call each in turn."""
 
 
 def add(commands: Any) -> None:
     """Add the command."""
     parser = command(commands, "bench", run, HELP)
-    parser.add_argument("--threads", type=_counts, default=[1, 2], metavar="N,N", help="thread counts (default: 1,2)")
-    parser.add_argument("--against", metavar="NAME", help="compare with this too, if it is installed: torch")
-    parser.add_argument("--quick", action="store_true", help="a few calls only: shows that it runs, not how fast")
-    parser.add_argument("--only", type=_names, metavar="ROAD,ROAD", help="some roads only, as in walk,transition,pose")
-    parser.add_argument("--models", type=Path, metavar="PATH", help="models manifest or folder (default: shipped)")
+    _add_what(parser)
+    _add_shown(parser)
+
+
+def _add_what(parser: argparse.ArgumentParser) -> None:
+    add = parser.add_argument
+    add("--threads", type=_counts, default=[1, 2], metavar="N,N", help="thread counts (default: 1,2)")
+    add("--against", type=_names, default=[], metavar="NAME,NAME", help="compare with these: torch, transformers")
+    add("--only", type=_names, metavar="ROAD,ROAD", help="some roads only, as in text,walk,pose")
+    add("--sizes", type=_counts, metavar="N,N", help="vectors searched (default: 1000,10000,100000; try 1000000)")
+    add("--models", type=Path, metavar="PATH", help="models manifest or folder (default: shipped)")
+    add("--variant", metavar="NAME", help="which files of the models, as in fp32")
+    add("--quick", action="store_true", help="a few calls only: shows that it runs, not how fast")
+    add("--strict", action="store_true", help="time everything again, call by call in turn")
+    add("--limits", action="store_true", help="also the machine's peaks, and how far from them every road is")
+
+
+def _add_shown(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--profile", metavar="ROAD", help="only show where this road's time goes")
+    parser.add_argument("--markdown", action="store_true", help="print a Markdown table")
+    parser.add_argument("--plot", type=Path, metavar="FILE", help="draw cost against batch and gallery size (PNG)")
     add_json(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Measure, then print."""
+    if arguments.profile is not None:
+        return _profile(arguments)
     from motionrt.bench.report import run_bench
 
-    found = run_bench(
-        arguments.threads,
-        models=None if arguments.models is None else str(arguments.models),
-        against=arguments.against,
-        quick=arguments.quick,
-        only=arguments.only,
-        note=say,
-    )
+    found = run_bench(_plan(arguments), say)
+    if arguments.plot is not None:
+        from motionrt.bench.plot import save_plot
+
+        say(f"wrote {save_plot(found, arguments.plot)}")
     if arguments.json:
         print_json(found)
+    elif arguments.markdown:
+        from motionrt.bench.markdown import readme_table
+
+        print(readme_table(found))
     else:
-        _print(found, arguments.against)
+        _print(found)
     return 0
 
 
-def _print(found: dict[str, Any], against: str | None) -> None:
-    from motionrt.bench.report import rows
+def _plan(arguments: argparse.Namespace) -> Plan:
+    from motionrt.bench.report import Plan, quick
+    from motionrt.bench.workload import SIZES
+
+    plan = Plan(
+        threads=arguments.threads,
+        models=_models(arguments),
+        variant=arguments.variant,
+        against=arguments.against,
+        only=arguments.only,
+        sizes=arguments.sizes or SIZES,
+        strict=arguments.strict,
+        limits=arguments.limits,
+    )
+    return quick(plan) if arguments.quick else plan
+
+
+def _profile(arguments: argparse.Namespace) -> int:
+    from motionrt.bench.processes import run_module
+
+    for threads in arguments.threads:
+        asked = {"models": _models(arguments), "threads": threads, "variant": arguments.variant}
+        found = run_module("motionrt.bench.profiling", {"road": arguments.profile, **asked})
+        if arguments.json:
+            print_json(found)
+        else:
+            _print_profile(found)
+    return 0
+
+
+def _print(found: dict[str, Any]) -> None:
+    from motionrt.bench import tables
 
     print(", ".join(f"{name} {version}" for name, version in found["versions"].items()))
     print(f"{found['machine']['processor']}, {found['machine']['cores']} cores, {found['machine']['system']}")
-    other = [against, "ratio"] if against else ["", ""]
+    rivals = found["settings"]["against"]
     for part in found["runs"]:
+        header = tables.header(part["threads"], rivals)
         print()
-        print_table([f"threads: {part['threads']}", "p50", "p95", "rate", *other], rows(part), "<>>>>>")
+        print_table(header, tables.rows(part, rivals), "<" + ">" * (len(header) - 1))
         for road, why in part["left_out"].items():
             print(f"left out: {road} ({why})")
+        if limits := part.get("limits"):
+            print()
+            print_table(tables.PEAKS, tables.peak_rows(limits["peaks"]), "<>")
+            print()
+            print_table(tables.LIMITS, tables.limit_rows(limits), "<>>>>>>>")
+    print()
+    print_table(["on the disk", ""], tables.install_rows(found["install_mb"]), "<>")
+
+
+def _print_profile(found: dict[str, Any]) -> None:
+    wall = found["wall_ms"]
+    print(f"{found['case']}, threads: {found['threads']}, {wall:.2f} ms a call with the profiler on")
+    parts = {**found["models_ms"], "outside of models": found["outside_ms"]}
+    for title, times in (("where", parts), ("operator", found["operators_ms"])):
+        print()
+        rows = [[name, f"{value:.3f} ms", f"{100 * value / wall:.0f} %"] for name, value in times.items()]
+        print_table([title, "a call", "share"], rows, "<>>")
+    rows = [[each["function"], f"{each['calls']:.1f}", f"{each['ms']:.3f} ms"] for each in found["python"]]
+    print()
+    print_table(["Python, own time", "calls", "a call"], rows, "<>>")
+
+
+def _models(arguments: argparse.Namespace) -> str | None:
+    return None if arguments.models is None else str(arguments.models)
 
 
 def _names(text: str) -> list[str]:
@@ -64,5 +142,5 @@ def _names(text: str) -> list[str]:
 def _counts(text: str) -> list[int]:
     counts = [int(part) for part in text.split(",")]
     if min(counts) < 1:
-        raise argparse.ArgumentTypeError("thread counts are at least 1")
+        raise argparse.ArgumentTypeError("counts are at least 1")
     return counts
