@@ -22,7 +22,11 @@ from motionrt.cli import (
     moments,
     parts,
     perform,
+    render,
+    retarget,
     retrieve,
+    studio,
+    view,
     walk,
 )
 from motionrt.cli.console import close_quietly, prepare_streams, say
@@ -39,7 +43,11 @@ _COMMANDS = (
     parts,
     walk,
     perform,
+    render,
     convert,
+    retarget,
+    view,
+    studio,
     models,
     bench,
 )

@@ -28,7 +28,9 @@ def add(commands: Any) -> None:
     """Add the command."""
     parser = command(commands, "compose", run, HELP)
     parser.add_argument("given", nargs="+", metavar="MOTION|TEXT", help="two or more: A, B, C ...")
-    parser.add_argument("-o", "--output", type=Path, required=True, metavar="OUT", help="file to write (.bvh, .npz)")
+    parser.add_argument(
+        "-o", "--output", type=Path, required=True, metavar="OUT", help="file to write (.bvh, .glb, .npz)"
+    )
     for letter in LETTERS:
         _add_layer(parser, letter)
     parser.add_argument("--joint", action="store_true", help="give the model all texts in one sentence instead")

@@ -15,7 +15,7 @@ HELP = """say what a motion shows: the nearest captions of a list"""
 def add(commands: Any) -> None:
     """Add the command."""
     parser = command(commands, "describe", run, HELP)
-    parser.add_argument("clip", type=Path, help="a motion file (.bvh, .amc, .npz)")
+    parser.add_argument("clip", type=Path, help="a motion file (.bvh, .amc, .npz, .glb)")
     parser.add_argument("-k", type=int, default=5, metavar="N", help="how many captions (default: 5)")
     parser.add_argument("--captions", type=Path, metavar="FILE", help="captions to choose from, one a line")
     add_mapping(parser)

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from motionrt.retrieval import BuildReport, Gallery
 
 SOME_SKIPPED = 3
-BUILD = """index a folder of motion files (.bvh, .amc, .npz), with all folders below it
+BUILD = """index a folder of motion files (.bvh, .amc, .npz, .glb), with all folders below it
 Files that cannot be read are listed with the reason, and the exit code is then 3."""
 UPDATE = """bring a gallery up to date with its folder
 Only new and changed files are read, and files that are gone are dropped."""

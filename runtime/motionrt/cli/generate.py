@@ -19,7 +19,9 @@ def add(commands: Any) -> None:
     """Add the command."""
     parser = command(commands, "generate", run, HELP)
     parser.add_argument("text", metavar="TEXT", help="what somebody does, as in 'wave the right hand'")
-    parser.add_argument("-o", "--output", type=Path, required=True, metavar="OUT", help="file to write (.bvh, .npz)")
+    parser.add_argument(
+        "-o", "--output", type=Path, required=True, metavar="OUT", help="file to write (.bvh, .glb, .npz)"
+    )
     parser.add_argument("--seconds", type=float, metavar="S", help="0.5 to 8 (default: 4)")
     parser.add_argument("-n", type=int, default=1, metavar="N", help="how many motions (default: 1)")
     add_chance(parser)

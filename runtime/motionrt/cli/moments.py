@@ -20,7 +20,7 @@ def add(commands: Any) -> None:
     """Add the command."""
     parser = command(commands, "moments", run, HELP)
     parser.add_argument("text", help="a sentence, as in 'a person turns around'")
-    parser.add_argument("clip", type=Path, help="a motion file (.bvh, .amc, .npz)")
+    parser.add_argument("clip", type=Path, help="a motion file (.bvh, .amc, .npz, .glb)")
     parser.add_argument("-k", type=int, default=5, metavar="N", help="how many moments at most (default: 5)")
     parser.add_argument(
         "--windows",

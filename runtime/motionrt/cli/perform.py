@@ -21,7 +21,9 @@ def add(commands: Any) -> None:
     """Add the command."""
     parser = command(commands, "perform", run, HELP)
     parser.add_argument("script", type=Path, metavar="SCRIPT", help="the script (.yaml)")
-    parser.add_argument("-o", "--output", type=Path, required=True, metavar="OUT", help="file to write (.bvh, .npz)")
+    parser.add_argument(
+        "-o", "--output", type=Path, required=True, metavar="OUT", help="file to write (.bvh, .glb, .npz)"
+    )
     add_json(parser)
     add_models(parser)
 

@@ -25,7 +25,9 @@ def add(commands: Any) -> None:
     where = parser.add_mutually_exclusive_group(required=True)
     where.add_argument("--to", type=float, nargs=2, metavar=("X", "Z"), help="the place to walk to")
     where.add_argument("--path", type=Path, metavar="CSV", help="a file of two columns, x and z, to walk along")
-    parser.add_argument("-o", "--output", type=Path, required=True, metavar="OUT", help="file to write (.bvh, .npz)")
+    parser.add_argument(
+        "-o", "--output", type=Path, required=True, metavar="OUT", help="file to write (.bvh, .glb, .npz)"
+    )
     parser.add_argument("--scene", type=Path, metavar="FILE", help="mesh (.obj, .ply, .glb) or map (.yaml, .pgm, .png)")
     parser.add_argument("--resolution", type=float, metavar="M", help="metres per pixel of a map without YAML")
     parser.add_argument("--from", dest="start", type=float, nargs=2, metavar=("X", "Z"), help="start (default: 0 0)")

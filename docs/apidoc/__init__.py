@@ -1,0 +1,1 @@
+"""What writes the API reference; run ``python docs/make_api.py``."""

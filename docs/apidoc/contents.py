@@ -1,0 +1,65 @@
+"""Which page shows what."""
+
+from __future__ import annotations
+
+from importlib import import_module
+
+Page = tuple[str, str, tuple[str, ...]]
+PAGES: dict[str, Page] = {
+    "runtime": ("Runtime", "One object; its verbs are the product.", ("motionrt:Runtime",)),
+    "motion": (
+        "Motions and files",
+        "A motion is a value: 24 joints, metres, Y up. Files go in and out by their suffix.",
+        (
+            "motionrt:Motion", "motionrt:Skeleton", "motionrt:SMPL24", "motionrt:PARTS", "motionrt:load_motion",
+            "motionrt:load_rig", "motionrt:load_target", "motionrt:save_motion", "motionrt.motion.rig:RigClip",
+        ),
+    ),
+    "search": (
+        "Search",
+        "What retrieval answers with, and galleries.",
+        (
+            "motionrt:Gallery", "motionrt:Hit", "motionrt.retrieval:Description", "motionrt.retrieval:Moments",
+            "motionrt.retrieval:Moment", "motionrt.retrieval:BuildReport", "motionrt.retrieval:build_gallery",
+            "motionrt.retrieval:update_gallery",
+        ),
+    ),
+    "making": (
+        "Generation and composition",
+        "The verbs are on [Runtime](runtime.md); these are what they take.",
+        (
+            "motionrt:Layer", "motionrt.synthesis.composing:compose", "motionrt.synthesis.parts:body_parts",
+            "motionrt.synthesis.parts:PromptLabeller", "motionrt.synthesis.parts:Endpoint",
+        ),
+    ),
+    "moving": (
+        "Walking and acting",
+        "Scenes, paths, actions, scripts, and what comes back.",
+        (
+            "motionrt:Scene", "motionrt:Path", "motionrt:Goal", "motionrt:Walk", "motionrt:Performance",
+            "motionrt.locomotion:Segment", "motionrt.locomotion:PerformanceMeasures", "motionrt:WalkTo",
+            "motionrt:Follow", "motionrt:Act", "motionrt:Do", "motionrt:Stand", "motionrt:Wait", "motionrt:Script",
+            "motionrt.locomotion:Agent", "motionrt.locomotion:Waypoints", "motionrt.locomotion:PoseSolution",
+            "motionrt.locomotion:Crowd", "motionrt.locomotion:SemanticCloud", "motionrt.locomotion:load_cloud",
+        ),
+    ),
+    "pictures": (
+        "Pictures",
+        "Needs the extra `render`.",
+        (
+            "motionrt:render", "motionrt.rendering:picture", "motionrt.rendering:Look", "motionrt.rendering:Colours",
+            "motionrt.rendering:Take", "motionrt.rendering:Mark",
+        ),
+    ),
+}  # fmt: skip
+"""Of every page its title, a line about it, and what stands on it, each as module:name."""
+UNLISTED = {"__version__", "errors", "MotionRTError"}
+"""The version explains itself, errors have a page."""
+
+
+def missing() -> list[str]:
+    """Names of ``motionrt.__all__`` that stand on no page."""
+    listed = {
+        place.split(":")[1] for _, _, places in PAGES.values() for place in places if place.startswith("motionrt:")
+    }
+    return sorted(set(import_module("motionrt").__all__) - listed - UNLISTED)

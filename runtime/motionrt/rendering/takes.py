@@ -1,0 +1,144 @@
+"""``Take``: what one part of a picture shows: a motion, and what belongs to it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any, Protocol, runtime_checkable
+
+import numpy as np
+
+from motionrt.errors import InvalidInputError
+from motionrt.formats import load_motion
+from motionrt.motion.motion import Motion
+from motionrt.motion.skeleton import FloatArray
+
+_LEAD_S = 2.0  # a keypoint is shown that long before it is met
+
+
+@dataclass(frozen=True)
+class Mark:
+    """A point in the scene that is shown for a while.
+
+    Attributes:
+        point: (x, y, z) metres.
+        start_s, end_s: seconds of the motion.
+    """
+
+    point: tuple[float, float, float]
+    start_s: float = 0.0
+    end_s: float = float("inf")
+
+
+@dataclass(frozen=True, eq=False)
+class Take:
+    """A motion, and what belongs to it.
+
+    Attributes:
+        motion: the motion.
+        caption: a line above it.
+        paths: polylines ``(N, 2)`` on the ground, x and z in metres.
+        marks: points that joints should meet.
+        areas: polygons ``(N, 2)`` on the ground, x and z: where one may walk. Without any the floor fits the motion.
+        things: points ``(N, 3)`` of furniture and the like.
+        floor: height of the floor, metres; None is 0, or the lowest foot where that is far from 0.
+        moments: seconds and words of the poses that a picture shows, instead of many with their times.
+    """
+
+    motion: Motion
+    caption: str = ""
+    paths: Sequence[FloatArray] = ()
+    marks: Sequence[Mark] = ()
+    areas: Sequence[FloatArray] = ()
+    things: FloatArray = field(default_factory=lambda: np.zeros((0, 3), np.float32))
+    floor: float | None = None
+    moments: Sequence[tuple[float, str]] = ()
+
+    @property
+    def ground(self) -> float:
+        """Height of the floor, metres."""
+        if self.floor is not None:
+            return self.floor
+        names = [name for name in self.motion.skeleton.names if name.endswith("_foot")]
+        joints = [self.motion.skeleton.index(name) for name in names] or slice(None)
+        lowest = float(self.motion.positions()[:, joints, 1].min())
+        return 0.0 if -0.15 < lowest < 0.4 else lowest
+
+
+@runtime_checkable
+class _Performed(Protocol):
+    """A :class:`motionrt.Performance`."""
+
+    @property
+    def motion(self) -> Motion: ...
+    @property
+    def segments(self) -> Sequence[Any]: ...
+    @property
+    def paths(self) -> Sequence[Any]: ...
+
+
+@runtime_checkable
+class _Walked(Protocol):
+    """A :class:`motionrt.Walk`."""
+
+    @property
+    def motion(self) -> Motion: ...
+    @property
+    def path(self) -> Any: ...
+
+
+TakeLike = Take | Motion | str | Path | _Performed | _Walked
+"""What can be drawn: a motion, its file, a ``Performance``, a ``Walk``, or a ``Take``."""
+
+
+def take_of(given: TakeLike, caption: str | None = None) -> Take:
+    """What to draw of something, with another caption if one is given.
+
+    Raises:
+        InvalidInputError: it is nothing that can be drawn.
+        MotionFileNotFoundError, FormatError, RigError: a file that cannot be read.
+    """
+    take = _taken(given)
+    return take if caption is None else replace(take, caption=caption)
+
+
+def _taken(given: TakeLike) -> Take:
+    if isinstance(given, Take):
+        return given
+    if isinstance(given, Motion):
+        return Take(given)
+    if isinstance(given, str | Path):
+        return Take(load_motion(given), Path(given).name)
+    if isinstance(given, _Performed):
+        paths = [np.asarray(path.points, np.float32) for path in given.paths]
+        return Take(given.motion, paths=paths, marks=_marks(given.segments, given.motion.fps))
+    if isinstance(given, _Walked):
+        return Take(given.motion, paths=[np.asarray(given.path.points, np.float32)])
+    raise InvalidInputError(f"cannot draw {given!r}: give a Motion, a motion file, a Performance, a Walk or a Take")
+
+
+def _marks(segments: Sequence[Any], fps: float) -> list[Mark]:
+    """The keypoints of held poses, from a little before they are met."""
+    found = []
+    for segment in segments:
+        keypoints: Mapping[str, Sequence[float]] = segment.keypoints
+        for x, y, z in keypoints.values():
+            found.append(Mark((float(x), float(y), float(z)), segment.start / fps - _LEAD_S, segment.end / fps))
+    return found
+
+
+def takes_of(given: TakeLike | Sequence[TakeLike], captions: str | Sequence[str] | None) -> list[Take]:
+    """What to draw, side by side.
+
+    Raises:
+        InvalidInputError: nothing is given, or not one caption for each; otherwise as :func:`take_of`.
+    """
+    several = isinstance(given, Sequence) and not isinstance(given, str)
+    many: list[Any] = list(given) if several else [given]  # type: ignore[arg-type]
+    names = [captions] if isinstance(captions, str) else captions
+    if not many or (names is not None and len(names) != len(many)):
+        raise InvalidInputError(
+            f"give at least one motion, and one caption for each: {len(names or ())} for {len(many)}"
+        )
+    return [take_of(one, None if names is None else names[i]) for i, one in enumerate(many)]

@@ -1,0 +1,56 @@
+"""Export: the selected clip as a file, downloaded or saved in a folder."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from motionrt.studio.workshop import file_name, formats, motion_bytes, save_in
+
+if TYPE_CHECKING:
+    from motionrt.studio.studio_session import StudioSession
+
+
+class ExportPanel:
+    """The tab.
+
+    Args:
+        session: whose.
+    """
+
+    def __init__(self, session: StudioSession) -> None:
+        self._session = session
+        gui, folder = session.client.gui, session.workshop.folder
+        self._which: Any = gui.add_markdown("")
+        self._form: Any = gui.add_dropdown("Format", formats())
+        self._name: Any = gui.add_text("Name", initial_value="", hint="By default the name of the clip")
+        download: Any = gui.add_button("Download", icon="download", color="blue")
+        download.on_click(session.guarded(lambda _: self.download()))
+        if folder is not None:
+            save: Any = gui.add_button(f"Save in {folder.name or folder}", icon="device-floppy", hint=str(folder))
+            save.on_click(session.guarded(lambda _: self.save()))
+
+    def refresh(self) -> None:
+        """After other clips came."""
+        shown = [actor.clip for actor in self._session.stage.actors if actor.visible]
+        self._which.content = f"selected: **{self._session.selected.name}**" if shown else "Nothing on the stage yet."
+
+    def content(self) -> tuple[str, bytes]:
+        """Name and bytes of the selected clip in the chosen format."""
+        clip, form = self._session.selected, self._form.value
+        return file_name(self._name.value or clip.name, form), motion_bytes(clip.motion, form)
+
+    def download(self) -> None:
+        """Hand the file to the browser."""
+        self.hand_over(*self.content())
+
+    def hand_over(self, name: str, content: bytes) -> None:
+        """A file for the browser to save."""
+        self._session.client.send_file_download(name, content, save_immediately=True)
+        self._session.say("Downloaded", name)
+
+    def save(self) -> None:
+        """Write the file into the folder."""
+        folder = self._session.workshop.folder
+        if folder is not None:
+            path = save_in(folder, *self.content())
+            self._session.say("Saved", str(path))

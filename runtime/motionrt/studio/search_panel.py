@@ -1,0 +1,90 @@
+"""Search: a text, ranked hits, the best of them playing."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from motionrt.errors import InvalidInputError
+from motionrt.motion import Motion
+from motionrt.studio.jobs import Told
+
+if TYPE_CHECKING:
+    from motionrt.retrieval import Hit
+    from motionrt.studio.studio_session import StudioSession
+
+HITS, PLAYED = 10, 3
+EXAMPLE = "a person walks in a circle"
+Row = tuple[str, Motion, str]
+
+
+class SearchPanel:
+    """The tab.
+
+    Args:
+        session: whose.
+    """
+
+    def __init__(self, session: StudioSession) -> None:
+        self._session = session
+        gui = session.client.gui
+        with gui.add_form(None) as form:
+            self._text: Any = gui.add_text("Text", initial_value=EXAMPLE)
+        go: Any = gui.add_button("Find", icon="search", color="blue")
+        self._played: Any = gui.add_slider("Play the best", 1, 6, 1, PLAYED)
+        self._keep: Any = gui.add_checkbox("Add to stage", initial_value=False, hint="Keep what is there")
+        self._folder: Any = gui.add_folder("Hits", visible=False)
+        self._rows: list[Any] = []
+        form.on_submit(session.guarded(lambda _: self.search()))
+        go.on_click(session.guarded(lambda _: self.search()))
+
+    def search(self) -> None:
+        """Ask the gallery; the best hits play."""
+        text = self._text.value.strip()
+        if not text:
+            raise InvalidInputError(f"write what to look for, as in: {EXAMPLE}")
+        shop, played = self._session.workshop, int(self._played.value)
+
+        def work(_: Told) -> tuple[list[Hit], list[Row]]:
+            hits = shop.runtime.retrieve(text, HITS, shop.gallery)
+            gallery = shop.runtime.gallery(shop.gallery)
+            return hits, [_row(hit, gallery.motion(hit)) for hit in hits[:played]]
+
+        def done(found: tuple[list[Hit], list[Row]], seconds: float) -> None:
+            hits, rows = found
+            self._list(hits, seconds)
+            self._session.present(rows, keep=bool(self._keep.value))
+
+        self._session.work(f"searching for “{text}”", work, done)
+
+    def play(self, hit: Hit) -> None:
+        """Play one hit."""
+        motion = self._session.workshop.runtime.gallery(self._session.workshop.gallery).motion(hit)
+        self._session.present([_row(hit, motion)], keep=bool(self._keep.value))
+
+    def _list(self, hits: list[Hit], seconds: float) -> None:
+        for row in self._rows:
+            row.remove()
+        gui = self._session.client.gui
+        with self._folder:
+            self._rows = [gui.add_markdown(f"{len(hits)} hits in {1000 * seconds:.0f} ms; click one to play it")]
+            self._rows += [self._button(hit) for hit in hits]
+        self._folder.visible = True
+
+    def _button(self, hit: Hit) -> Any:
+        hint = f"{hit.id}, {hit.start_s:.1f} to {hit.end_s:.1f} s, score {hit.score:.3f}"
+        button = self._session.client.gui.add_button(label(hit), hint=hint, color="gray")
+        button.on_click(self._session.guarded(lambda _: self.play(hit)))
+        return button
+
+
+def label(hit: Hit) -> str:
+    """What stands on the button of a hit: rank, score and clip."""
+    name = hit.text or Path(hit.id).stem.replace("-", " ")
+    short = name if len(name) <= 34 else f"{name[:33]}…"
+    return f"{hit.rank}.  {hit.score:.2f}  {short}"
+
+
+def _row(hit: Hit, motion: Motion) -> Row:
+    note = f"rank {hit.rank} · score {hit.score:.2f} · {hit.start_s:.1f}–{hit.end_s:.1f} s"
+    return Path(hit.id).stem, motion.canonical(), note

@@ -1,0 +1,79 @@
+"""What all windows of a studio share: the models, a gallery, and a folder to save in."""
+
+from __future__ import annotations
+
+import re
+import tempfile
+import threading
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from motionrt.errors import InvalidInputError
+from motionrt.formats import WRITABLE_SUFFIXES
+from motionrt.motion import Motion
+
+if TYPE_CHECKING:
+    from motionrt.runtime import Runtime
+
+
+@dataclass(frozen=True, eq=False)
+class Workshop:
+    """Tools of a studio.
+
+    Attributes:
+        runtime: whose verbs are called.
+        gallery: what is searched; None for the starter gallery.
+        folder: where files may be saved on this machine; None for nowhere: they are downloaded.
+        local: whether only this machine sees the page, so that it may name files here.
+        desk: held by whoever uses the models.
+    """
+
+    runtime: Runtime
+    gallery: Path | None = None
+    folder: Path | None = None
+    local: bool = True
+    desk: threading.Lock = field(default_factory=threading.Lock)
+
+
+def formats() -> tuple[str, ...]:
+    """Names of the formats that motions can be saved in, as in ``bvh``."""
+    return tuple(suffix.lstrip(".") for suffix in WRITABLE_SUFFIXES)
+
+
+def motion_bytes(motion: Motion, form: str) -> bytes:
+    """A motion as the content of a file.
+
+    Raises:
+        InvalidInputError: an unknown format.
+    """
+    if form not in formats():
+        raise InvalidInputError(f"unknown format '{form}'; there are: {', '.join(formats())}")
+    with tempfile.TemporaryDirectory() as folder:
+        return motion.save(Path(folder) / f"motion.{form}").read_bytes()
+
+
+def file_name(name: str, suffix: str) -> str:
+    """A name that every file system takes."""
+    plain = re.sub(r"\.(bvh|amc|npz|glb|ya?ml)$", "", name.strip(), flags=re.IGNORECASE)
+    plain = re.sub(r"[^\w.-]+", "_", plain.replace("/", "__")).strip("._")[:80]
+    return f"{plain or 'motion'}.{suffix}"
+
+
+def save_in(folder: Path, name: str, content: bytes) -> Path:
+    """Write a file into a folder, beside those that are there; returns where.
+
+    Raises:
+        InvalidInputError: it cannot be written.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        path = folder / name
+        number = 1
+        while path.exists():
+            number += 1
+            path = folder / f"{Path(name).stem}-{number}{Path(name).suffix}"
+        path.write_bytes(content)
+    except OSError as error:
+        raise InvalidInputError(f"cannot save in {folder}: {error.strerror or error}") from error
+    return path

@@ -1,0 +1,168 @@
+"""The pages of motionrt view and motionrt studio in headless Chromium."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from io import BytesIO
+from pathlib import Path
+
+import numpy as np
+import pytest
+from chromium import Browser, Page, wait_until
+from studio_runtime import StudioRuntime
+
+from motionrt.formats import load_motion
+from motionrt.locomotion import Script
+from motionrt.studio import open_studio, open_viewer
+from motionrt.studio.showing import show_of
+from motionrt.studio.workshop import Workshop
+
+WIDTH, HEIGHT, SCALE = 900, 560, 0.35
+FLOOR = 190, 470  # pixels where the ground is in sight, away from the panel
+
+
+def frame(page: Page) -> int:
+    found = re.search(r"frame (\d+) of", page.text())
+    return int(found.group(1)) if found else -1
+
+
+def bluish(png: bytes) -> int:
+    """How many pixels left of the panel have the first figure's colour."""
+    image = pytest.importorskip("PIL.Image", reason="looking at screenshots needs Pillow, which is not installed")
+    pixels = np.asarray(image.open(BytesIO(png)).convert("RGB"), dtype=int)
+    pixels = pixels[len(pixels) // 4 :, : pixels.shape[1] * (WIDTH - 340) // WIDTH]
+    red, blue = pixels[..., 0], pixels[..., 2]
+    return int((blue - red > 60).sum())
+
+
+@pytest.fixture(scope="module")
+def view(chromium: Browser, walk_file: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Page]:
+    missing = tmp_path_factory.mktemp("none") / "missing.bvh"
+    served = open_viewer(show_of([walk_file, missing]), port=0)
+    page = chromium.open(served.url, WIDTH, HEIGHT, SCALE)
+    page.wait_text("my walk", 40)
+    yield page
+    page.close()
+    served.stop()
+
+
+@pytest.fixture
+def studio(chromium: Browser, tmp_path: Path) -> Iterator[Callable[[], Page]]:
+    served = open_studio(show_of([]), Workshop(StudioRuntime(), folder=tmp_path / "saved"), port=0)
+    opened: list[Page] = []
+
+    def open_page() -> Page:
+        page = chromium.open(served.url, WIDTH, HEIGHT, SCALE)
+        opened.append(page)
+        page.call("Browser.setDownloadBehavior", behavior="allow", downloadPath=str(tmp_path))
+        page.wait_text("Find", 40)
+        return page
+
+    yield open_page
+    for page in opened:
+        page.close()
+    served.stop()
+
+
+def test_the_page_shows_a_figure_and_asks_nobody_but_its_server(view: Page) -> None:
+    view.wait_text("of 90 · 30 fps")
+    wait_until(lambda: bluish(view.screenshot()) > 200, 30, "a blue figure")
+    outside = [url for url in view.requests() if not url.startswith(("http://127.0.0.1", "data:", "blob:"))]
+    assert outside == []
+
+
+def test_a_file_that_cannot_be_read_is_told_on_the_page(view: Page) -> None:
+    view.wait_text("missing.bvh")
+
+
+def test_it_plays_pauses_and_steps(view: Page) -> None:
+    first = frame(view)
+    wait_until(lambda: frame(view) != first, 20, "the next frame")
+    view.click("Pause")
+    view.wait_text("Play\n")
+    view.click("|◀")
+    wait_until(lambda: frame(view) == 1, 10, "frame 1")
+    view.click("1 ▶")
+    view.click("1 ▶")
+    wait_until(lambda: frame(view) == 3, 10, "frame 3")
+    view.click("◀ 1")
+    wait_until(lambda: frame(view) == 2, 10, "frame 2")
+
+
+def test_search_plays_hits_and_a_click_plays_one(studio: Callable[[], Page]) -> None:
+    page = studio()
+    page.click("Find")
+    page.wait_text("4 hits in")
+    page.wait_text("rank 3 · score 0.70")  # three side by side
+    page.click("2. 0.80 a person walks in a circle")
+    wait_until(lambda: "rank 3 · score" not in page.text(), 20, "one hit alone")
+    assert "rank 2 · score 0.80" in page.text()
+    page.fill("Text", "a unicorn")
+    page.wait_text("no unicorns in this gallery")
+    page.fill("Text", "a person")
+    page.wait_text("rank 1 · score 0.90")
+
+
+def test_generate_compose_describe_and_export(studio: Callable[[], Page], tmp_path: Path) -> None:
+    page = studio()
+    page.click("Make")
+    page.click("Generate")
+    page.wait_text("generated in")
+    page.click("Compose")
+    page.wait_text("fill both slots")
+    page.click("A")
+    page.wait_text("A: wave the right hand")
+    page.click("B")
+    page.wait_text("B: wave the right hand")
+    page.click("Compose")
+    page.wait_text("composed in")
+    page.click("Describe the selected clip")
+    page.wait_text("somebody walks")
+    page.click("Export")
+    page.click("Download")
+    file = wait_until(lambda: next(tmp_path.glob("*.bvh"), None), 20, "a download")
+    wait_until(lambda: file.read_bytes().endswith(b"\n"), 10, "all of it")
+    assert load_motion(file).frames == 80
+    page.click("Save in saved")
+    assert wait_until(lambda: list((tmp_path / "saved").glob("*.bvh")), 10, "a saved file")
+
+
+def test_clicks_become_steps_that_are_performed_and_a_script(studio: Callable[[], Page], tmp_path: Path) -> None:
+    page = studio()
+    page.click("Direct")
+    page.click("Perform")
+    page.wait_text("nothing to do yet")
+    page.click("Walk")
+    page.wait_text("click: Walk here")
+    page.click_at(*FLOOR)
+    page.wait_text("walk to ")
+    page.click_at(FLOOR[0] + 120, FLOOR[1] - 60)
+    wait_until(lambda: page.text().count("walk to ") == 2, 10, "a second step")
+    page.click("Undo")
+    wait_until(lambda: page.text().count("walk to ") == 1, 10, "one step less")
+    page.click("Sit")
+    page.wait_text("click: Sit down here")
+    page.click_at(FLOOR[0] + 120, FLOOR[1] - 60)
+    page.wait_text("sit: pelvis, left foot, right foot")
+    page.click("Perform")
+    page.wait_text("keypoints missed by", 30)
+    page.click("Download as script")
+    file = wait_until(lambda: next(tmp_path.glob("*.yaml"), None), 20, "a script")
+    assert [type(step).__name__ for step in Script.read(file).steps] == ["WalkTo", "Act"]
+
+
+def test_two_windows_do_not_disturb_each_other(studio: Callable[[], Page]) -> None:
+    one, two = studio(), studio()
+    one.click("Find")
+    one.wait_text("4 hits in")
+    assert "Nothing on the stage yet" in two.text()
+    two.click("Make")
+    two.click("Generate")
+    two.wait_text("generated in")
+    assert "generated in" not in one.text()
+    one.click("Pause")
+    one.wait_text("Play\n")
+    two.call("Page.bringToFront")
+    moving = frame(two)
+    wait_until(lambda: frame(two) != moving, 20, "the other window to play on")
