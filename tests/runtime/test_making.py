@@ -92,7 +92,7 @@ def test_bad_wishes_are_refused(runtime: Runtime, options: dict[str, Any], messa
 
 
 def test_models_that_cannot_generate_say_so() -> None:
-    with pytest.raises(ModelNotFoundError, match="no model 'temos_text'; it has: sentence_encoder"):
+    with pytest.raises(ModelNotFoundError, match="no model 'temos_text'; it has: tmr_decoder"):
         Runtime(TINY).generate(WALK, sampler="diffusion")
 
 

@@ -62,3 +62,8 @@ def test_the_folder_for_hits_may_not_be_a_file(gallery: Path, capsys: pytest.Cap
     path = gallery / "walk.bvh"
     assert main(["retrieve", "walks", "--gallery", str(gallery), "--save", str(path)]) == 1
     assert "cannot make the folder" in capsys.readouterr().err
+
+
+def test_approximate_answers_a_small_gallery_exactly(gallery: Path, run_json: Callable[..., Any]) -> None:
+    asked = ("retrieve", "a person walks", "--gallery", gallery, "--windows")
+    assert run_json(*asked, "--approximate") == run_json(*asked)
