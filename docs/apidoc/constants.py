@@ -16,7 +16,7 @@ def constant_doc(module: str, name: str) -> str:
     if module == "motionrt":
         from motionrt import _HOMES
 
-        home = import_module(f"motionrt.{_HOMES[name]}")
+        home = import_module(f"motionrt.{next(place for place, names in _HOMES.items() if name in names)}")
     for source in (home, *_imported(home, name)):
         body = ast.parse(inspect.getsource(source)).body
         for statement, after in pairwise(body):
@@ -26,8 +26,8 @@ def constant_doc(module: str, name: str) -> str:
 
 
 def _imported(home: ModuleType, name: str) -> Iterator[ModuleType]:
-    """The modules that a package has a name from."""
-    for statement in ast.parse(inspect.getsource(home)).body:
+    """The modules that a package has a name from, at once or when it is asked for."""
+    for statement in ast.walk(ast.parse(inspect.getsource(home))):
         if isinstance(statement, ast.ImportFrom) and any(alias.name == name for alias in statement.names):
             yield import_module(str(statement.module))
 
