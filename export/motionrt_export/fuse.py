@@ -9,6 +9,10 @@ import onnx
 import onnxruntime as ort
 
 
+NEWER = frozenset({"weight_prepacked"})
+"""Attributes that say the default, and that the oldest onnxruntime which the files are for does not know."""
+
+
 def fused(model: onnx.ModelProto) -> onnx.ModelProto:
     """The graph with operators fused, constants folded and what is computed twice computed once.
 
@@ -34,6 +38,9 @@ def _as_before(result: onnx.ModelProto, model: onnx.ModelProto) -> onnx.ModelPro
     result.ir_version = model.ir_version
     result.producer_name, result.producer_version = model.producer_name, model.producer_version
     result.graph.name, result.graph.doc_string = model.graph.name, ""
+    for node in result.graph.node:
+        for attribute in [each for each in node.attribute if each.name in NEWER and each.i == 0]:
+            node.attribute.remove(attribute)
     for field in ("input", "output"):
         result.graph.ClearField(field)
         getattr(result.graph, field).extend(getattr(model.graph, field))

@@ -66,7 +66,7 @@ TEXT = Quantisation(
 ENCODER = Quantisation(("/project/",))
 DECODER = Quantisation(("/project/", "/hear/"))
 MOTION = Quantisation(exact=("/aim/", "/answer/"))
-TRANSITION = Quantisation(exact=("/aim/",))  # answers that are smoothed, and never fed back
+TRANSITION = MOTION  # an int8 answer is 7 % faster, and lets feet slide 5 % more
 TEMOS_TEXT = Quantisation(("/project/",), exact=("/text_mu/",))
 TEMOS_MOTION = Quantisation(("/project/", "/gather/"))
 TEMOS_DECODER = Quantisation(("/hear/",), exact=("/project/",))

@@ -18,6 +18,7 @@ from motionrt_export.attention import join_attention  # noqa: E402
 from motionrt_export.branch import switched, with_switch  # noqa: E402
 from motionrt_export.fuse import fused  # noqa: E402
 from motionrt_export.optimise import CHOICES, quantise  # noqa: E402
+from motionrt_export.quantise import blocks  # noqa: E402
 from motionrt_export.specs import TMR_MOTION, TMR_TEXT  # noqa: E402
 from motionrt_export.trace import trace  # noqa: E402
 
@@ -136,3 +137,22 @@ def test_a_weight_that_both_sides_read_stays_outside() -> None:
     assert [tensor.name for tensor in made.graph.initializer] == ["w", "more"]
     assert run(made, feeds, ["gone"])[0].tolist() == [[4, 8, 12]] * 2
     assert run(made, feeds | {"more": np.array(False)}, ["gone"])[0].shape == (0, 3)
+
+
+def test_blocks_say_nothing_that_the_oldest_supported_onnxruntime_does_not_know() -> None:
+    known = {"K", "N", "bits", "block_size", "accuracy_level"}  # of MatMulNBits in onnxruntime 1.22
+    weight = np.random.default_rng(0).standard_normal((128, 64)).astype(np.float32)
+    model = helper.make_model(
+        helper.make_graph(
+            [helper.make_node("MatMul", ["x", "w"], ["y"], name="/hear/MatMul")],
+            "blocks",
+            [helper.make_tensor_value_info("x", TensorProto.FLOAT, ["rows", 128])],
+            [helper.make_tensor_value_info("y", TensorProto.FLOAT, ["rows", 64])],
+            [numpy_helper.from_array(weight, "w")],
+        ),
+        opset_imports=[helper.make_opsetid("", 18)],
+        ir_version=10,
+    )
+    blocks(model, ["/hear/MatMul"], block=128)
+    (node,) = (node for node in fused(model).graph.node if node.op_type == "MatMulNBits")
+    assert {attribute.name for attribute in node.attribute} <= known
