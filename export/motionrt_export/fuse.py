@@ -8,7 +8,6 @@ from pathlib import Path
 import onnx
 import onnxruntime as ort
 
-
 NEWER = frozenset({"weight_prepacked"})
 """Attributes that say the default, and that the oldest onnxruntime which the files are for does not know."""
 

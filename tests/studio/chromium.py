@@ -120,6 +120,17 @@ class Page:
         self.call("Page.bringToFront")
         self.click_at(*self.middle(element(text)))
 
+    def tab(self, name: str) -> None:
+        """Open a tab of the panel; again, if the page was not ready for the click."""
+        selected = f"(e => e && e.getAttribute('aria-selected') === 'true')({element(name)})"
+
+        def opened() -> bool:
+            self.click(name)
+            time.sleep(0.3)
+            return bool(self.run(selected))
+
+        wait_until(opened, 60, f"the tab {name}")
+
     def fill(self, label: str, text: str) -> None:
         """Write into the field with a label, and press Enter."""
         self.wait(f"(e => e ? (e.focus(), e.select(), true) : false)({field(label)})")

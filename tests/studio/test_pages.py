@@ -106,7 +106,7 @@ def test_search_plays_hits_and_a_click_plays_one(studio: Callable[[], Page]) -> 
 
 def test_generate_compose_describe_and_export(studio: Callable[[], Page], tmp_path: Path) -> None:
     page = studio()
-    page.click("Make")
+    page.tab("Make")
     page.click("Generate")
     page.wait_text("generated in")
     page.click("Compose")
@@ -119,7 +119,7 @@ def test_generate_compose_describe_and_export(studio: Callable[[], Page], tmp_pa
     page.wait_text("composed in")
     page.click("Describe the selected clip")
     page.wait_text("somebody walks")
-    page.click("Export")
+    page.tab("Export")
     page.click("Download")
     file = wait_until(lambda: next(tmp_path.glob("*.bvh"), None), 20, "a download")
     wait_until(lambda: file.read_bytes().endswith(b"\n"), 10, "all of it")
@@ -130,7 +130,7 @@ def test_generate_compose_describe_and_export(studio: Callable[[], Page], tmp_pa
 
 def test_clicks_become_steps_that_are_performed_and_a_script(studio: Callable[[], Page], tmp_path: Path) -> None:
     page = studio()
-    page.click("Direct")
+    page.tab("Direct")
     page.click("Perform")
     page.wait_text("nothing to do yet")
     page.click("Walk")
@@ -157,7 +157,7 @@ def test_two_windows_do_not_disturb_each_other(studio: Callable[[], Page]) -> No
     one.click("Find")
     one.wait_text("4 hits in")
     assert "Nothing on the stage yet" in two.text()
-    two.click("Make")
+    two.tab("Make")
     two.click("Generate")
     two.wait_text("generated in")
     assert "generated in" not in one.text()
