@@ -6,6 +6,8 @@ Field numbers are those of ``onnx.proto3``.
 
 from __future__ import annotations
 
+from motionrt.models.protobuf import message, number, text
+
 FLOAT, UINT8 = 1, 2
 _INT_ATTRIBUTE, _EXTERNAL = 2, 1
 _IR_VERSION, _OPSET, _CONTRIB = 8, 17, "com.microsoft"
@@ -19,50 +21,28 @@ def scan_model(rows: int, width: int) -> bytes:
     ``(rows,)`` float32. ``width`` is one block: a power of two from 16 to 256.
     """
     attributes = {"K": width, "N": rows, "bits": 8, "block_size": width, "accuracy_level": 4}
-    node = [_text(1, name) for name in ("query", "codes", "scales")]
-    node += [_text(2, "scores"), _text(4, "MatMulNBits"), _text(7, _CONTRIB)]
-    node += [_message(5, _attribute(name, value)) for name, value in attributes.items()]
-    graph = [_message(1, node), _text(2, "scan")]
+    node = [text(1, name) for name in ("query", "codes", "scales")]
+    node += [text(2, "scores"), text(4, "MatMulNBits"), text(7, _CONTRIB)]
+    node += [message(5, _attribute(name, value)) for name, value in attributes.items()]
+    graph = [message(1, node), text(2, "scan")]
     graph += [
-        _message(5, _external("codes", UINT8, (rows, 1, width))),
-        _message(5, _external("scales", FLOAT, (rows,))),
+        message(5, _external("codes", UINT8, (rows, 1, width))),
+        message(5, _external("scales", FLOAT, (rows,))),
     ]
-    graph += [_message(11, _value("query", (1, width))), _message(12, _value("scores", (1, rows)))]
-    opsets = [_message(8, [_text(1, ""), _number(2, _OPSET)]), _message(8, [_text(1, _CONTRIB), _number(2, 1)])]
-    return b"".join([_number(1, _IR_VERSION), _message(7, graph), *opsets])
+    graph += [message(11, _value("query", (1, width))), message(12, _value("scores", (1, rows)))]
+    opsets = [message(8, [text(1, ""), number(2, _OPSET)]), message(8, [text(1, _CONTRIB), number(2, 1)])]
+    return b"".join([number(1, _IR_VERSION), message(7, graph), *opsets])
 
 
 def _attribute(name: str, value: int) -> list[bytes]:
-    return [_text(1, name), _number(3, value), _number(20, _INT_ATTRIBUTE)]
+    return [text(1, name), number(3, value), number(20, _INT_ATTRIBUTE)]
 
 
 def _external(name: str, kind: int, shape: tuple[int, ...]) -> list[bytes]:
-    place = _message(13, [_text(1, "location"), _text(2, _NOWHERE)])
-    return [*(_number(1, size) for size in shape), _number(2, kind), _text(8, name), place, _number(14, _EXTERNAL)]
+    place = message(13, [text(1, "location"), text(2, _NOWHERE)])
+    return [*(number(1, size) for size in shape), number(2, kind), text(8, name), place, number(14, _EXTERNAL)]
 
 
 def _value(name: str, shape: tuple[int, ...]) -> list[bytes]:
-    sizes = _message(2, [_message(1, [_number(1, size)]) for size in shape])
-    return [_text(1, name), _message(2, [_message(1, [_number(1, FLOAT), sizes])])]
-
-
-def _message(field: int, parts: list[bytes]) -> bytes:
-    content = b"".join(parts)
-    return _varint(field << 3 | 2) + _varint(len(content)) + content
-
-
-def _text(field: int, text: str) -> bytes:
-    return _message(field, [text.encode()])
-
-
-def _number(field: int, value: int) -> bytes:
-    return _varint(field << 3) + _varint(value)
-
-
-def _varint(value: int) -> bytes:
-    """A whole number from 0, seven bits a byte, the lowest first."""
-    digits = bytearray()
-    while value > 127:
-        digits.append(value & 127 | 128)
-        value >>= 7
-    return bytes([*digits, value])
+    sizes = message(2, [message(1, [number(1, size)]) for size in shape])
+    return [text(1, name), message(2, [message(1, [number(1, FLOAT), sizes])])]
