@@ -4,6 +4,7 @@
    mapping, structure).
 2. A constant rotation per joint carries the rig's bone axes to those of ``smpl24``: from a known standing
    pose (``rig_alignment``) or, where there is none, from the animation (``rig_calibration``).
+   Pelvis and chest go by what hangs on them where their joints do not carry the body (``rig_steady``).
 3. The limbs' directions are copied exactly (``rig_limbs``); trunk and neck of any length are resampled.
 4. The hips follow the rig's hips, scaled by the ratio of the leg lengths, which makes the file's unit
    irrelevant (``rig_placement``).
@@ -24,7 +25,11 @@ from motionrt.motion.rig_own import as_own_motion
 from motionrt.motion.rig_placement import place_root
 from motionrt.motion.rig_pose import RigPose
 from motionrt.motion.rig_repairs import settle_head, unroll_feet
+from motionrt.motion.rig_rest_bend import without_rest_bend
+from motionrt.motion.rig_roles import cast_roles
 from motionrt.motion.rig_stance import read_stance
+from motionrt.motion.rig_steady import with_steady_trunk
+from motionrt.motion.rig_tree import RigTree
 from motionrt.motion.rotations import Array, matrix_to_quaternion, quaternion_to_matrix, slerp
 from motionrt.motion.skeleton import SMPL24, FloatArray
 
@@ -55,8 +60,10 @@ def to_smpl24(
     if own is not None:
         return own
     poses = [clip.rest_rotations()] if reference is None else [reference, clip.rest_rotations()]
-    stance = read_stance(clip, mapping, poses)
-    motion, to_world = stance.motion, stance.to_world
+    roles = cast_roles(RigTree(clip), mapping)
+    clip = without_rest_bend(clip, roles, reference)
+    stance = read_stance(clip, mapping, poses, roles)
+    motion, to_world = with_steady_trunk(clip, stance), stance.to_world
     turned = to_world @ _follow(motion, stance.alignments)
     world = RigPose(motion.positions @ to_world.T, motion.rotations, stance.roles)
     swing_limbs(turned, world)
