@@ -16,7 +16,7 @@ from motionrt.locomotion.walking import FPS, SPEED, Crowd, at_30_fps, to_motion
 from motionrt.models.walknet import HISTORY
 from motionrt.motion import Motion
 from motionrt.motion.features import ccf219
-from motionrt.motion.foot_locker import FootLocker
+from motionrt.motion.feet.live_lock import FootLocker
 from motionrt.motion.rotations import wrapped
 
 THERE = 0.3  # metres and radians: somebody who stands this near to a goal stays

@@ -22,7 +22,7 @@ from motionrt.metrics.locomotion import foot_skate
 from motionrt.models import PosePrior, Sessions, WalkModel
 from motionrt.motion import Motion
 from motionrt.motion.features import ccf219
-from motionrt.motion.foot_lock import lock_feet
+from motionrt.motion.feet.lock import lock_feet
 from motionrt_training.networks.walknet import FRAMES
 from motionrt_training.walk_pool import WalkPool, read_pool
 
