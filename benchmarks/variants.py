@@ -26,7 +26,7 @@ from walks import ROUTES, walked
 
 from motionrt import Runtime
 from motionrt.models import Sessions, TransitionModel
-from motionrt.motion.foot_lock import lock_feet
+from motionrt.motion.feet.lock import lock_feet
 from motionrt_export.measured import Measured
 from motionrt_training.corpora.recordings import load_recordings
 from motionrt_training.evaluate import prompts, transitions

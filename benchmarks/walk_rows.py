@@ -13,8 +13,8 @@ import numpy.typing as npt
 from motionrt import Motion, load_motion
 from motionrt.metrics import LocomotionMeasures, foot_skate, jerk, standing_height
 from motionrt.metrics.locomotion import foot_skates, path_distances
-from motionrt.motion.flat_ground import flat_ground
-from motionrt.motion.foot_lock import lock_feet
+from motionrt.motion.feet.flat_ground import flat_ground
+from motionrt.motion.feet.lock import lock_feet
 
 WINDOW_S = 30.0  # seconds at the beginning and at the end that are compared
 FPS = 30.0

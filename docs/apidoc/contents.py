@@ -12,7 +12,7 @@ PAGES: dict[str, Page] = {
         "A motion is a value: 24 joints, metres, Y up. Files go in and out by their suffix.",
         (
             "motionrt:Motion", "motionrt:Skeleton", "motionrt:SMPL24", "motionrt:PARTS", "motionrt:load_motion",
-            "motionrt:load_rig", "motionrt:load_target", "motionrt:save_motion", "motionrt.motion.rig:RigClip",
+            "motionrt:load_rig", "motionrt:load_target", "motionrt:save_motion", "motionrt.rigs.clip:RigClip",
         ),
     ),
     "search": (

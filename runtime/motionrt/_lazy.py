@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+import warnings
 from collections.abc import Callable, Mapping, Sequence
 from importlib import import_module
 from typing import Any
@@ -18,5 +19,18 @@ def lazily(package: str, homes: Mapping[str, Sequence[str]]) -> Callable[[str], 
         value = getattr(import_module(f"{package}.{home_of[name]}"), name)
         setattr(sys.modules[package], name, value)
         return value
+
+    return load
+
+
+def moved(package: str, new_homes: Mapping[str, str]) -> Callable[[str], Any]:
+    """The ``__getattr__`` of a package that names have left: they still work, with a ``DeprecationWarning``."""
+
+    def load(name: str) -> Any:
+        if name not in new_homes:
+            raise AttributeError(f"module '{package}' has no attribute '{name}'")
+        home = new_homes[name]
+        warnings.warn(f"{package}.{name} is now {home}.{name}", DeprecationWarning, stacklevel=2)
+        return getattr(import_module(home), name)
 
     return load

@@ -12,7 +12,7 @@ from tqdm import tqdm
 
 from motionrt.motion import Motion
 from motionrt.motion.features import ccf219
-from motionrt.motion.foot_lock import planted_toes
+from motionrt.motion.feet.lock import planted_toes
 from motionrt_training.corpora.recordings import Recordings
 from motionrt_training.corpora.walks import ROUGH, RUNS, Variants, goal_headings, stretches, variants
 

@@ -10,8 +10,8 @@ import numpy as np
 
 if TYPE_CHECKING:
     from motionrt import Motion
-    from motionrt.motion.rig import RigClip
-    from motionrt.motion.rig_target import Rig, RigMotion
+    from motionrt.rigs.clip import RigClip
+    from motionrt.rigs.target import Rig, RigMotion
 
 _SAME = 1e-5
 
@@ -43,7 +43,7 @@ def keys(armature: bpy.types.Object, motion: Motion) -> list[tuple[str, str, np.
 
 def motion(armature: bpy.types.Object, poses: np.ndarray, fps: float) -> Motion:
     """What poses ``(F, J, 4, 4)`` of the bones, in the armature, mean for ``smpl24``."""
-    from motionrt.motion.retarget import to_smpl24
+    from motionrt.rigs.retarget_in import to_smpl24
 
     parents = _parents(armature)
     local = poses.copy()
@@ -56,8 +56,8 @@ def motion(armature: bpy.types.Object, poses: np.ndarray, fps: float) -> Motion:
 
 def metres(armature: bpy.types.Object, point: np.ndarray) -> np.ndarray:
     """A point in the armature in metres of ``smpl24``, Y up."""
-    from motionrt.motion.rig_build import read_build
-    from motionrt.motion.rig_stance import read_stance
+    from motionrt.rigs.build import read_build
+    from motionrt.rigs.stance import read_stance
 
     rig = rig_of(armature)
     stance = read_stance(rig.clip, None, rig.poses)
@@ -67,7 +67,7 @@ def metres(armature: bpy.types.Object, point: np.ndarray) -> np.ndarray:
 
 def rig_of(armature: bpy.types.Object) -> Rig:
     """The armature at rest."""
-    from motionrt.motion.rig_target import Rig
+    from motionrt.rigs.target import Rig
 
     rests, offsets = _rest(armature)
     clip = _clip(armature, rests[None], offsets[None], 30.0)
@@ -75,7 +75,7 @@ def rig_of(armature: bpy.types.Object) -> Rig:
 
 
 def _clip(armature: bpy.types.Object, rotations: np.ndarray, translations: np.ndarray, fps: float) -> RigClip:
-    from motionrt.motion.rig import RigClip
+    from motionrt.rigs.clip import RigClip
 
     names, parents = tuple(armature.data.bones.keys()), tuple(_parents(armature))
     rests, offsets = (part.astype(np.float32) for part in _rest(armature))

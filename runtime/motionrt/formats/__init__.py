@@ -7,25 +7,25 @@ from typing import TYPE_CHECKING
 from motionrt._lazy import lazily
 
 if TYPE_CHECKING:
-    from motionrt.formats.amass import read_npz, write_npz
-    from motionrt.formats.amc import read_amc
-    from motionrt.formats.asf import read_asf
-    from motionrt.formats.bvh import read_bvh
-    from motionrt.formats.bvh_write import write_bvh
-    from motionrt.formats.glb import read_glb
-    from motionrt.formats.glb_write import write_glb
+    from motionrt.formats.acclaim.amc import read_amc
+    from motionrt.formats.acclaim.asf import read_asf
+    from motionrt.formats.bvh.read import read_bvh
+    from motionrt.formats.bvh.write import write_bvh
+    from motionrt.formats.gltf.read import read_glb
+    from motionrt.formats.gltf.write import write_glb
     from motionrt.formats.leading_pose import drop_leading_tpose
     from motionrt.formats.load import MOTION_SUFFIXES, WRITABLE_SUFFIXES, load_motion, load_rig, save_motion
+    from motionrt.formats.smpl import read_npz, write_npz
     from motionrt.formats.target import RIG_SUFFIXES, load_target
 
 _HOMES = {
-    "amass": ("read_npz", "write_npz"),
-    "amc": ("read_amc",),
-    "asf": ("read_asf",),
-    "bvh": ("read_bvh",),
-    "bvh_write": ("write_bvh",),
-    "glb": ("read_glb",),
-    "glb_write": ("write_glb",),
+    "smpl": ("read_npz", "write_npz"),
+    "acclaim.amc": ("read_amc",),
+    "acclaim.asf": ("read_asf",),
+    "bvh.read": ("read_bvh",),
+    "bvh.write": ("write_bvh",),
+    "gltf.read": ("read_glb",),
+    "gltf.write": ("write_glb",),
     "leading_pose": ("drop_leading_tpose",),
     "load": ("MOTION_SUFFIXES", "WRITABLE_SUFFIXES", "load_motion", "load_rig", "save_motion"),
     "target": ("RIG_SUFFIXES", "load_target"),

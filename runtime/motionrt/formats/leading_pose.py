@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from motionrt.motion.rig import RigClip
 from motionrt.motion.skeleton import FloatArray
+from motionrt.rigs.clip import RigClip
 
 _LATEST_JUMP = 4
 """The jump away from the pose is looked for in so many steps: blank frames may stand before the motion."""

@@ -7,17 +7,17 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from motionrt.errors import FormatError, InvalidInputError, MotionRTError
-from motionrt.formats.amass import read_npz, write_npz
-from motionrt.formats.amc import read_amc
-from motionrt.formats.bvh import read_bvh
-from motionrt.formats.bvh_write import UNITS, write_bvh
-from motionrt.formats.glb import read_glb
-from motionrt.formats.glb_write import write_glb
+from motionrt.formats.acclaim.amc import read_amc
+from motionrt.formats.bvh.read import read_bvh
+from motionrt.formats.bvh.write import UNITS, write_bvh
+from motionrt.formats.gltf.read import read_glb
+from motionrt.formats.gltf.write import write_glb
 from motionrt.formats.leading_pose import drop_leading_tpose
+from motionrt.formats.smpl import read_npz, write_npz
 from motionrt.formats.text import require_file
 from motionrt.motion.motion import Motion
-from motionrt.motion.retarget import to_smpl24
-from motionrt.motion.rig import RigClip
+from motionrt.rigs.clip import RigClip
+from motionrt.rigs.retarget_in import to_smpl24
 
 MOTION_SUFFIXES = (".bvh", ".amc", ".npz", ".glb")
 """What :func:`load_motion` reads, in any mixture of upper and lower case."""

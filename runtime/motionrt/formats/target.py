@@ -8,16 +8,16 @@ from pathlib import Path
 import numpy as np
 
 from motionrt.errors import FormatError, InvalidInputError, MotionRTError
-from motionrt.formats.bvh import parse_bvh
-from motionrt.formats.bvh_rig import build_rig
-from motionrt.formats.bvh_target import BvhFile
-from motionrt.formats.glb_document import open_glb
-from motionrt.formats.glb_target import GlbFile
+from motionrt.formats.bvh.read import parse_bvh
+from motionrt.formats.bvh.rig import build_rig
+from motionrt.formats.bvh.target import BvhFile
+from motionrt.formats.gltf.document import open_glb
+from motionrt.formats.gltf.target import GlbFile
 from motionrt.formats.leading_pose import drop_leading_tpose
 from motionrt.formats.text import require_file
-from motionrt.motion.rig import RigClip
-from motionrt.motion.rig_target import Rig
 from motionrt.motion.skeleton import FloatArray
+from motionrt.rigs.clip import RigClip
+from motionrt.rigs.target import Rig
 
 RIG_SUFFIXES = (".bvh", ".glb")
 """What :func:`load_target` reads."""

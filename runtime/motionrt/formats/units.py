@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from motionrt.motion.rig import RigClip
-from motionrt.motion.rig_target import RigMotion
 from motionrt.motion.rotations import rotation_between
+from motionrt.rigs.clip import RigClip
+from motionrt.rigs.target import RigMotion
 
 _USUAL = (1.0, 0.1, 0.0254, 0.01, 0.001, 0.3048, 2.54 / 45, 0.056444)
 """Metres per unit: metres, decimetres, inches, centimetres, millimetres, feet, and CMU's 2.54/45 m."""

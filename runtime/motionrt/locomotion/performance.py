@@ -9,12 +9,12 @@ from pathlib import Path as FilePath
 
 import numpy as np
 
-from motionrt.locomotion.paths import Path
+from motionrt.locomotion.path import Path
 from motionrt.locomotion.terrain import Heights, on_plane, raised, smoothed
 from motionrt.metrics.locomotion import end_error, path_distances
 from motionrt.metrics.walk_report import LocomotionMeasures
 from motionrt.motion import SMPL24, Motion
-from motionrt.motion.foot_lock import lock_feet
+from motionrt.motion.feet.lock import lock_feet
 
 
 @dataclass(frozen=True)

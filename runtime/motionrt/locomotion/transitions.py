@@ -10,12 +10,12 @@ import numpy.typing as npt
 
 from motionrt.errors import InvalidInputError
 from motionrt.locomotion.bearings import joined
+from motionrt.locomotion.crowd import to_motion
 from motionrt.locomotion.goal_frame import Goal, frames_from_goal, frames_to_goal
-from motionrt.locomotion.walking import to_motion
 from motionrt.models.transnet import SEED, WINDOW
 from motionrt.motion import Motion
 from motionrt.motion.features import ccf219
-from motionrt.motion.foot_lock import lock_feet
+from motionrt.motion.feet.lock import lock_feet
 from motionrt.motion.rotations import axis_angle_to_matrix, axis_rotation, matrix_to_axis_angle, project_to_so3
 from motionrt.motion.skeleton import FloatArray
 from motionrt.motion.transforms import heading
@@ -65,7 +65,7 @@ def transition(
         target: one frame in the world; or up to 20, of a motion that the transition ends with.
         goal: where the target's first frame shall stand instead, and facing where; see :func:`distance`.
         held: the pose (the target's last frame) will be held: the last 4 frames rest in it already.
-        foot_lock: let standing feet stand (:func:`motionrt.motion.foot_lock.lock_feet`).
+        foot_lock: let standing feet stand (:func:`motionrt.motion.feet.lock.lock_feet`).
 
     Returns:
         60 frames at 30 fps in the world, to be played behind ``seed``.

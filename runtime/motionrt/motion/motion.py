@@ -16,7 +16,7 @@ from motionrt.motion.kinematics import fk
 from motionrt.motion.skeleton import SMPL24, FloatArray, Skeleton
 
 if TYPE_CHECKING:
-    from motionrt.motion.rig_target import Rig, RigMotion
+    from motionrt.rigs.target import Rig, RigMotion
 
 
 @dataclass(frozen=True, eq=False)
@@ -139,10 +139,10 @@ class Motion:
 
         Raises:
             MotionFileNotFoundError, FormatError: as :func:`motionrt.load_target`.
-            RigError: as :func:`motionrt.motion.retarget_out.to_rig`.
+            RigError: as :func:`motionrt.rigs.retarget_out.to_rig`.
         """
         from motionrt.formats import load_target
-        from motionrt.motion.retarget_out import to_rig
+        from motionrt.rigs.retarget_out import to_rig
 
         target = load_target(rig) if isinstance(rig, str | Path) else rig
         return to_rig(self, target, mapping=mapping, root_motion=root_motion)

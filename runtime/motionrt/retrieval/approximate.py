@@ -18,7 +18,8 @@ import numpy as np
 from motionrt.errors import MissingDependencyError
 from motionrt.motion.skeleton import FloatArray
 from motionrt.retrieval.narrow import Directions
-from motionrt.retrieval.search import IntArray, VectorIndex, scores, top
+from motionrt.retrieval.scores import IntArray, scores, top
+from motionrt.retrieval.search import VectorIndex
 from motionrt.retrieval.store import TEMPORARY
 
 WORTHWHILE_FROM = 50_000  # below, the exact answer takes half a millisecond at most

@@ -20,7 +20,7 @@ from motionrt.motion.skeleton import FloatArray
 from motionrt.retrieval.codes import LEVELS, ZERO, ByteArray, CodedQuery, Codes, code_query, code_rows, padded
 from motionrt.retrieval.narrow import Directions
 from motionrt.retrieval.scan_graph import scan_model
-from motionrt.retrieval.search import IntArray, scores
+from motionrt.retrieval.scores import IntArray, scores
 
 if TYPE_CHECKING:
     from onnxruntime import InferenceSession

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 from motionrt.motion.skeleton import FloatArray
 from motionrt.retrieval.captions import EmbeddedCaptions
-from motionrt.retrieval.search import checked_k, top
+from motionrt.retrieval.scores import top
+from motionrt.retrieval.search import checked_k
 from motionrt.retrieval.windows import MotionEmbedder, embed_windows, spans_in_seconds
 
 

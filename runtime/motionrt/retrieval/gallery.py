@@ -2,21 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from motionrt.errors import FormatError, GalleryError, InvalidInputError
+from motionrt.errors import GalleryError, InvalidInputError
 from motionrt.formats.motion_pack import MotionPack
 from motionrt.motion import Motion
 from motionrt.motion.skeleton import FloatArray
 from motionrt.retrieval import layout, store
+from motionrt.retrieval.contents import Contents
 from motionrt.retrieval.locking import writing
-from motionrt.retrieval.records import Clip, ModelStamp, Skipped, WindowTable, window_table
+from motionrt.retrieval.records import Clip, ModelStamp, window_table
 from motionrt.retrieval.search import ExactIndex, Hit, checked_k, nearest_per_group
 from motionrt.retrieval.windows import MotionEmbedder, embed_windows, motion_features, spans_in_seconds
 
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class Gallery:
+class Gallery(Contents):
     """Clips, and the embeddings of their windows (10 s long, every 5 s; a shorter clip is one window).
 
     Attributes:
@@ -40,17 +41,6 @@ class Gallery:
         folder: where the gallery was opened or saved, ``None`` for one in memory.
         neighbours: where the index of approximate search is kept, ``None`` for a gallery in memory.
     """
-
-    clips: tuple[Clip, ...]
-    embeddings: FloatArray
-    windows: WindowTable
-    model: ModelStamp
-    source: Path | None = None
-    skipped: tuple[Skipped, ...] = ()
-    mapping: Mapping[str, str] | None = None
-    motions: MotionPack | Path | None = None
-    folder: Path | None = None
-    neighbours: Path | None = None
 
     def __len__(self) -> int:
         return len(self.clips)
@@ -67,7 +57,8 @@ class Gallery:
             GalleryNotFoundError: there is none; the message gives the command that builds it.
             GalleryError: it is damaged or of another version.
         """
-        return layout.opened(cls, store.locate(Path(path)))
+        found = layout.read(store.locate(Path(path)))
+        return cls(**{field.name: getattr(found, field.name) for field in fields(found)})
 
     @classmethod
     def from_motions(
@@ -204,16 +195,6 @@ class Gallery:
         clip = self.clips[int(row["clip"])]
         start, end = float(row["start_s"]), float(row["end_s"])
         return Hit(rank, score, clip.id, self.path(clip), start, end, clip.text)
-
-    @cached_property
-    def pack(self) -> MotionPack | None:
-        """The motions that the gallery carries, read when first needed."""
-        if not isinstance(self.motions, Path):
-            return self.motions
-        try:
-            return MotionPack.read(self.motions)
-        except FormatError as error:
-            raise store.damaged(error.path, error.reason) from error
 
     @cached_property
     def _exact(self) -> ExactIndex:

@@ -1,4 +1,4 @@
-"""Between a :class:`~motionrt.retrieval.gallery.Gallery` and what its folder holds."""
+"""Between the :class:`~motionrt.retrieval.contents.Contents` of a gallery and what its folder holds."""
 
 from __future__ import annotations
 
@@ -6,20 +6,18 @@ import os
 from dataclasses import asdict
 from functools import partial
 from pathlib import Path
-from typing import IO, TYPE_CHECKING, Any
+from typing import IO, Any
 
 import numpy as np
 import numpy.typing as npt
 
 from motionrt.motion.skeleton import FloatArray
 from motionrt.retrieval import store
+from motionrt.retrieval.contents import Contents
 from motionrt.retrieval.records import WINDOW_TYPE, Clip, ModelStamp, Skipped, WindowTable
 
-if TYPE_CHECKING:
-    from motionrt.retrieval.gallery import Gallery
 
-
-def save(gallery: Gallery, folder: Path) -> None:
+def save(gallery: Contents, folder: Path) -> None:
     """Write the gallery's files; the caller holds the folder's lock."""
     arrays: dict[str, tuple[str, store.Writer]] = {
         "embeddings": (".npy", partial(_write_npy, array=gallery.embeddings)),
@@ -31,30 +29,30 @@ def save(gallery: Gallery, folder: Path) -> None:
     store.write(folder, _head(gallery, folder), arrays)
 
 
-def opened(kind: type[Gallery], folder: Path) -> Gallery:
+def read(folder: Path) -> Contents:
     """The gallery of a folder that holds one; GalleryError when its parts do not fit together."""
     try:
-        return _assembled(kind, folder, store.read_head(folder))
+        return _assembled(folder, store.read_head(folder))
     except FileNotFoundError:  # another process replaced the gallery just after its head was read
         pass
     try:
-        return _assembled(kind, folder, store.read_head(folder))
+        return _assembled(folder, store.read_head(folder))
     except FileNotFoundError as error:
         raise store.damaged(folder, f"no file {error.filename}") from error
 
 
-def _assembled(kind: type[Gallery], folder: Path, head: dict[str, Any]) -> Gallery:
+def _assembled(folder: Path, head: dict[str, Any]) -> Contents:
     try:
-        gallery = _read(kind, folder, head)
+        contents = _read(folder, head)
     except (KeyError, TypeError, AttributeError) as error:
         raise store.damaged(folder / store.GALLERY_FILE, f"{type(error).__name__}: {error}") from error
-    _check(gallery.embeddings, gallery.windows, len(gallery), folder)
-    return gallery
+    _check(contents.embeddings, contents.windows, len(contents.clips), folder)
+    return contents
 
 
-def _read(kind: type[Gallery], folder: Path, head: dict[str, Any]) -> Gallery:
+def _read(folder: Path, head: dict[str, Any]) -> Contents:
     files = head["files"]
-    return kind(
+    return Contents(
         clips=tuple(Clip(**clip) for clip in head["clips"]),
         embeddings=store.read_array(folder, files["embeddings"]),
         windows=store.read_array(folder, files["windows"]),
@@ -77,7 +75,7 @@ def _check(embeddings: FloatArray, windows: WindowTable, clips: int, folder: Pat
         raise store.damaged(folder, "clips, windows and embeddings do not fit together")
 
 
-def _head(gallery: Gallery, folder: Path) -> dict[str, Any]:
+def _head(gallery: Contents, folder: Path) -> dict[str, Any]:
     return {
         "model": asdict(gallery.model),
         "source": _noted_source(gallery.source, folder),

@@ -13,11 +13,11 @@ import numpy.typing as npt
 
 from motionrt.errors import InvalidInputError
 from motionrt.motion.skeleton import FloatArray
+from motionrt.retrieval.scores import IntArray, scores, top
 
 if TYPE_CHECKING:
     from motionrt.retrieval.coded_scan import CodedScan
 
-IntArray = npt.NDArray[np.int64]
 CODED_FROM = 4_000  # below, the float32 scan is as fast
 CODED_LATE_FROM = 20_000  # from here the copy takes more than 20 ms
 
@@ -118,26 +118,6 @@ class ExactIndex:
 def _patience(count: int) -> int:
     """Queries that an index of ``count`` vectors answers before it is coded."""
     return 1 if count < CODED_LATE_FROM else 32
-
-
-def scores(vectors: FloatArray, query: FloatArray) -> FloatArray:
-    """The float32 scores of ``vectors`` ``(N, d)``, each the same whichever others stand beside it.
-
-    The product is an ``einsum``: a BLAS product of matrix and vector starts a thread on every core, waits for the
-    slowest, and takes two to ten times as long (measured at 10,000 and 100,000 vectors).
-    """
-    result: FloatArray = np.einsum("nd,d->n", vectors, query)
-    return result
-
-
-def top(scores: FloatArray, k: int) -> tuple[IntArray, FloatArray]:
-    """Indices and values of the ``min(k, N)`` largest scores ``(N,)``, best first, ties by index."""
-    among = np.arange(len(scores))
-    if k < len(scores):
-        worst = np.partition(scores, len(scores) - k)[len(scores) - k]
-        among = np.flatnonzero(scores >= worst)
-    best = among[np.argsort(-scores[among], kind="stable")][:k]
-    return best.astype(np.int64), scores[best]
 
 
 def nearest_per_group(

@@ -13,7 +13,7 @@ import numpy.typing as npt
 from motionrt.errors import InvalidInputError, MotionRTError
 from motionrt.formats import load_motion
 from motionrt.motion import Motion
-from motionrt.motion.contacts import stretches, toe_contacts
+from motionrt.motion.feet.contacts import stretches, toe_contacts
 from motionrt.motion.rotations import matrix_to_quaternion
 from motionrt.motion.skeleton import SMPL22_JOINTS, FloatArray
 from motionrt.motion.transforms import TOE_JOINTS

@@ -15,7 +15,7 @@ from motionrt.models.text import MODEL as SENTENCES
 from motionrt.models.text import FloatArray, SentenceEncoder, checked_text
 from motionrt.motion import Motion
 from motionrt.motion.features import sinc135
-from motionrt.motion.foot_lock import lock_feet
+from motionrt.motion.feet.lock import lock_feet
 from motionrt.synthesis.diffusion import ddim
 from motionrt.synthesis.sampling import Sampling
 from motionrt.synthesis.smoothing import smoothed

@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 
 from motionrt.errors import FormatError, MotionFileNotFoundError
 from motionrt.formats import read_amc, read_asf
-from motionrt.motion.rig import RigClip
+from motionrt.rigs.clip import RigClip
 
 
 def read(tmp_path: Path, amc: str = AMC, asf: str = ASF) -> RigClip:

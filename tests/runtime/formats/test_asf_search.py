@@ -9,7 +9,7 @@ from mini_files import AMC, ASF, write
 
 from motionrt.errors import FormatError, MotionFileNotFoundError
 from motionrt.formats import read_amc
-from motionrt.formats.asf_search import find_asf, find_fps
+from motionrt.formats.acclaim.asf_search import find_asf, find_fps
 
 
 def skeleton(path: Path, thigh: float) -> Path:

@@ -12,7 +12,7 @@ from numpy.testing import assert_allclose
 from scipy.spatial.transform import Rotation
 
 from motionrt.formats import read_bvh
-from motionrt.motion.rig import RigClip
+from motionrt.rigs.clip import RigClip
 
 
 def read(tmp_path: Path, text: str | bytes) -> RigClip:

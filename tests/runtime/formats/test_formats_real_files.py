@@ -11,7 +11,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from motionrt.formats import drop_leading_tpose, load_motion, load_rig
-from motionrt.formats.asf_search import find_asf
+from motionrt.formats.acclaim.asf_search import find_asf
 
 MOCAP = Path(__file__).parents[4] / "shared" / "data" / "mocap"
 CMU = MOCAP / "cmu"

@@ -18,7 +18,7 @@ from motions import walking
 
 from motionrt import load_motion
 from motionrt.errors import FormatError, MotionFileNotFoundError, MotionRTError
-from motionrt.formats import glb_container, load_rig, load_target, write_glb
+from motionrt.formats import load_rig, load_target, write_glb
 
 TIMES = np.arange(5) / 30.0
 PERSON = character("mixamo")
@@ -67,7 +67,7 @@ def test_json_that_lies_about_its_size_or_is_too_big_is_not_read(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     path = sound().save(tmp_path / "clip.glb")
-    monkeypatch.setattr(glb_container, "JSON_LIMIT", 1000)
+    monkeypatch.setattr("motionrt.formats.gltf.container.JSON_LIMIT", 1000)
     with pytest.raises(FormatError, match="bytes of JSON; at most 1000"):
         load_rig(path)
 

@@ -8,7 +8,7 @@ from numpy.testing import assert_array_equal
 from scipy.spatial.transform import Rotation
 
 from motionrt.formats import drop_leading_tpose
-from motionrt.motion.rig import RigClip
+from motionrt.rigs.clip import RigClip
 
 JOINTS = 10
 

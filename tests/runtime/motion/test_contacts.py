@@ -8,7 +8,7 @@ from gaits import gait
 from motions import random_motion, standing
 
 from motionrt.motion import Motion
-from motionrt.motion.contacts import foot_contacts, hysteresis, joint_contacts, stretches, toe_contacts
+from motionrt.motion.feet.contacts import foot_contacts, hysteresis, joint_contacts, stretches, toe_contacts
 from motionrt.motion.transforms import moved
 
 

@@ -7,7 +7,7 @@ from gaits import gait
 from motions import standing
 
 from motionrt.motion import Motion
-from motionrt.motion.flat_ground import flat_ground
+from motionrt.motion.feet.flat_ground import flat_ground
 
 TOES = [10, 11]
 

@@ -10,8 +10,8 @@ from motions import random_motion, standing, walking
 from motionrt.errors import InvalidInputError
 from motionrt.metrics import foot_skate, jerk
 from motionrt.motion import SMPL24, Motion, Skeleton
-from motionrt.motion.foot_lock import lock_feet, planted_toes
-from motionrt.motion.foot_locker import FootLocker
+from motionrt.motion.feet.live_lock import FootLocker
+from motionrt.motion.feet.lock import lock_feet, planted_toes
 from motionrt.motion.transforms import moved
 
 TOES, ANKLES = [10, 11], [7, 8]

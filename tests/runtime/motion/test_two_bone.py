@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 from motions import random_motion
 from scipy.spatial.transform import Rotation
 
+from motionrt.motion.feet.two_bone import LEG_JOINTS, bend_legs, two_bone
 from motionrt.motion.kinematics import fk
 from motionrt.motion.skeleton import SMPL24
-from motionrt.motion.two_bone import LEG_JOINTS, bend_legs, two_bone
 
 THIGH, SHIN = 0.4, 0.35
 FULL = THIGH + SHIN

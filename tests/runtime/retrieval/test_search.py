@@ -8,7 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from motionrt.errors import InvalidInputError
-from motionrt.retrieval.search import ExactIndex, checked_k, nearest_per_group, top
+from motionrt.retrieval.scores import top
+from motionrt.retrieval.search import ExactIndex, checked_k, nearest_per_group
 
 
 @given(st.lists(st.integers(-3, 3), min_size=1, max_size=40), st.integers(1, 50))

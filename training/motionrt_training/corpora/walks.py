@@ -15,8 +15,8 @@ import numpy as np
 
 from motionrt.motion import SMPL24, Motion
 from motionrt.motion.features import ccf219
-from motionrt.motion.flat_ground import flat_ground
-from motionrt.motion.foot_lock import lock_feet
+from motionrt.motion.feet.flat_ground import flat_ground
+from motionrt.motion.feet.lock import lock_feet
 from motionrt.motion.rotations import Array, wrapped
 from motionrt.motion.transforms import heading
 from motionrt_training.corpora.bend import bent, smoothed, wave

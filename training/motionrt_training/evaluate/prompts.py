@@ -18,7 +18,7 @@ import numpy as np
 from motionrt import metrics
 from motionrt.errors import FormatError, InvalidInputError
 from motionrt.motion import Motion
-from motionrt.motion.foot_lock import lock_feet
+from motionrt.motion.feet.lock import lock_feet
 from motionrt.motion.skeleton import FloatArray
 from motionrt_training.corpora.actions import ActionClip
 from motionrt_training.evaluate.simultaneous import clip_motion

@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 
 from motionrt.errors import InvalidInputError
-from motionrt.motion.foot_lock import lock_feet
+from motionrt.motion.feet.lock import lock_feet
 from motionrt.motion.motion import Motion
 from motionrt.motion.transforms import floor_height
 from motionrt.synthesis.composing.alignment import Align, aligned
@@ -51,7 +51,7 @@ def compose(
             0 is the paper's hard cut, 3 uses the whole spine.
         keep: "local" copies rotations relative to the parent, as the paper does; "world" keeps what a layer has by
             itself of lean against the vertical, by turning the first joint after each seam.
-        foot_lock: let standing feet stand (:func:`~motionrt.motion.foot_lock.lock_feet`); changes the legs.
+        foot_lock: let standing feet stand (:func:`~motionrt.motion.feet.lock.lock_feet`); changes the legs.
         override: combine actions that need the same parts, and masks that overlap, as at test time in the paper.
         derive: finds the parts of layers that have none; for example by the speeds of the joints.
 

@@ -7,10 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from motionrt.motion.feet.two_bone import LEG_JOINTS
 from motionrt.motion.motion import Motion
 from motionrt.motion.rotations import Array
 from motionrt.motion.transforms import TOE_JOINTS
-from motionrt.motion.two_bone import LEG_JOINTS
 from motionrt.synthesis.composing.ownership import Weights
 
 _LEGS = [joint for leg in LEG_JOINTS for joint in leg]

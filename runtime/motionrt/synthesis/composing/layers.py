@@ -103,7 +103,7 @@ def _check_motion(motion: object, number: int) -> None:
         raise InvalidInputError(f"layer {number} is a {type(motion).__name__}, not a Motion")
     if motion.skeleton != SMPL24:
         raise InvalidInputError(
-            f"layer {number} has a skeleton of its own; bring it to smpl24 with motionrt.motion.retarget.to_smpl24, "
+            f"layer {number} has a skeleton of its own; bring it to smpl24 with motionrt.rigs.retarget_in.to_smpl24, "
             "as motionrt.formats.load_motion does for files"
         )
 

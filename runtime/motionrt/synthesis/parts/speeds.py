@@ -59,7 +59,7 @@ def part_speeds(motion: Motion) -> Mapping[str, float]:
         m/s for each of :data:`motionrt.motion.body_parts.PARTS`, and ``turning`` in rad/s. All zero for one frame.
     """
     if any(max(joints) >= len(motion.skeleton) for joints in PART_JOINTS.values()):
-        raise InvalidInputError("velocity_parts needs a motion of smpl24; see motionrt.motion.retarget")
+        raise InvalidInputError("velocity_parts needs a motion of smpl24; see motionrt.rigs.retarget_in")
     speeds = {part: _fastest(_seen_from(motion, part, _FRAME[part]), motion.fps) for part in PARTS if part in _FRAME}
     speeds["global"] = _fastest(motion.root[:, None], motion.fps)
     turns = wrapped(np.diff(heading(motion))) * motion.fps

@@ -1,0 +1,1 @@
+"""Acclaim files: `asf` reads the skeleton, `amc` its motion."""

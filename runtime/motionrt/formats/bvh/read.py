@@ -1,0 +1,121 @@
+"""BVH in: one file as a :class:`RigClip`, or one error with file, line and reason."""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+from motionrt.errors import FormatError
+from motionrt.formats.bvh.hierarchy import BvhJoint, parse_hierarchy
+from motionrt.formats.bvh.rig import build_rig
+from motionrt.formats.bvh.values import Values, read_values
+from motionrt.formats.text import line_of, read_text, shorten
+from motionrt.rigs.clip import RigClip
+
+FPS_RANGE = (1.0, 1000.0)
+"""Frame rates outside of this range are taken for a mistake in the file."""
+
+_STILL_FPS = 30.0
+_MOTION = re.compile(r"^[ \t]*MOTION\b", re.MULTILINE | re.IGNORECASE)
+_COUNT = re.compile(r"\s*Frames[ \t]*:[ \t]*(\S*)", re.IGNORECASE)
+_TIME = re.compile(r"\s*Frame[ \t]*Time[ \t]*:[ \t]*(\S*)", re.IGNORECASE)
+
+
+def read_bvh(path: str | Path, *, fps: float | None = None) -> RigClip:
+    """Read a BVH file.
+
+    Rotation channels may come in any order and number and are applied as listed (intrinsic, degrees).
+    Position channels *replace* the joint's OFFSET on their axis, as in Blender; only where a file plainly
+    holds differences (positions near zero at joints with a real offset) are they added to it. A frame may be
+    broken over several lines. A second joint of a name is called ``<name>_2``. Unit and vertical axis are not
+    part of the format: both stay ``None``.
+
+    Args:
+        path: the file; UTF-8 or Latin-1.
+        fps: frames per second to use instead of the file's ``Frame Time``. A file of a single frame whose
+            frame time makes no sense gets 30.
+
+    Raises:
+        MotionFileNotFoundError: there is no such file.
+        FormatError: the file is not a whole, finite BVH file; names the line.
+    """
+    bvh = parse_bvh(path, fps=fps)
+    return build_rig(bvh.joints, bvh.values, bvh.fps)
+
+
+@dataclass(frozen=True, eq=False)
+class BvhText:
+    """A BVH file, parsed but not yet understood.
+
+    Attributes:
+        hierarchy: its text up to MOTION.
+        joints: what that declares.
+        values: ``(F, C)`` channel values.
+        fps: frames per second.
+    """
+
+    hierarchy: str
+    joints: list[BvhJoint]
+    values: Values
+    fps: float
+
+
+def parse_bvh(path: str | Path, *, fps: float | None = None) -> BvhText:
+    """Text, joints and numbers of a BVH file; arguments and errors as for :func:`read_bvh`."""
+    path = Path(path)
+    text = read_text(path)
+    start = _MOTION.search(text)
+    joints = parse_hierarchy(text[: start.start()] if start else text, path)
+    if start is None:
+        raise FormatError(path, "the file ends before MOTION", line_of(text, len(text)))
+    return BvhText(text[: start.start()], joints, *_read_motion(text, start.end(), joints, path, fps))
+
+
+def _read_motion(text: str, at: int, joints: list[BvhJoint], path: Path, fps: float | None) -> tuple[Values, float]:
+    """Channel values ``(F, C)`` and the frame rate."""
+    channels = sum(len(joint.channels) for joint in joints)
+    if channels == 0:
+        raise FormatError(path, "no joint has CHANNELS: there is no motion in this file", line_of(text, at))
+    word, at = _header_field(_COUNT, "Frames:", text, at, path)
+    frames = _frame_count(word, path, line_of(text, at))
+    word, at = _header_field(_TIME, "Frame Time:", text, at, path)
+    rate = float(fps) if fps is not None else _frame_rate(word, frames, path, line_of(text, at))
+    return read_values(text, at, (frames, channels), path), rate
+
+
+def _header_field(pattern: re.Pattern[str], name: str, text: str, at: int, path: Path) -> tuple[str, int]:
+    match = pattern.match(text, at)
+    if match is None:
+        rest = text[at:].lstrip()
+        found = shorten(rest[:200].split("\n")[0]) if rest else "the end of the file"
+        raise FormatError(path, f"expected '{name}', found '{found}'", line_of(text, len(text) - len(rest)))
+    return match.group(1), match.end()
+
+
+def _frame_count(word: str, path: Path, line: int) -> int:
+    if not (word.isascii() and word.isdecimal() and len(word) < 10):
+        raise FormatError(path, f"the number of frames is '{shorten(word)}'", line)
+    if int(word) == 0:
+        raise FormatError(path, "the file has no frames", line)
+    return int(word)
+
+
+def _frame_rate(word: str, frames: int, path: Path, line: int) -> float:
+    slow, fast = FPS_RANGE
+    try:
+        seconds = float(word)
+    except ValueError:
+        raise FormatError(path, f"frame time '{shorten(word)}' is not a number", line) from None
+    if math.isfinite(seconds) and seconds > 0 and slow <= 1 / seconds <= fast:
+        return _snap(1 / seconds)
+    if frames == 1:
+        return _STILL_FPS
+    expected = f"between {1 / fast:g} and {1 / slow:g} s; give fps= to replace it"
+    raise FormatError(path, f"frame time {shorten(word)} is not {expected}", line)
+
+
+def _snap(fps: float) -> float:
+    """The whole number that a rounded frame time stands for (0.016667 s is 60 fps), where there is one."""
+    return float(round(fps)) if abs(round(fps) / fps - 1) < 1e-4 else fps

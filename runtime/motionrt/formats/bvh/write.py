@@ -1,0 +1,163 @@
+"""BVH out: a ``Motion``, or any rig's clip, as a hierarchy with Euler angles."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from motionrt.errors import InvalidInputError
+from motionrt.formats.atomic import write_bytes
+from motionrt.formats.tips import bone_tips
+from motionrt.motion.kinematics import fk
+from motionrt.motion.motion import Motion
+from motionrt.motion.rotations import matrix_to_euler
+from motionrt.rigs.clip import RigClip
+
+UNITS = {"m": 1.0, "cm": 100.0, "mm": 1000.0, "in": 1 / 0.0254}
+"""Names of units and how many of them are a metre."""
+
+_ORDER = "ZXY"
+_ROTATIONS = " ".join(f"{axis}rotation" for axis in _ORDER)
+_POSITIONS = "Xposition Yposition Zposition"
+_MOVES = 1e-5  # share of the rig's largest offset
+
+
+def write_bvh(motion: Motion, path: str | Path, *, scale: float = 100.0, t_pose: bool = False) -> Path:
+    """Write a motion as BVH, whole or not at all.
+
+    Y is up; the root's OFFSET is zero and its position channels are absolute; every joint has the rotation
+    channels ``Zrotation Xrotation Yrotation`` (degrees, unwrapped over time so that interpolation does not
+    spin). Six decimals.
+
+    Args:
+        motion: what to write.
+        path: the file; its folder must exist.
+        scale: file units per metre: 100 writes centimetres, which BVH importers expect most often, 1 metres.
+        t_pose: put one frame of the T-pose first, facing +Z, feet on the floor, where the motion starts: what
+            MotionBuilder, Maya and others characterise a rig by. Readers of motionrt drop it again.
+
+    Returns:
+        ``path``.
+
+    Raises:
+        InvalidInputError: ``scale`` is not positive, or the file cannot be written.
+    """
+    if not (np.isfinite(scale) and scale > 0):
+        raise InvalidInputError(f"scale must be a positive number, not {scale}")
+    motion = _with_t_pose(motion) if t_pose else motion
+    skeleton = motion.skeleton
+    translations = np.repeat(skeleton.offsets[None], motion.frames, axis=0)
+    translations[:, 0] = motion.root
+    clip = RigClip(skeleton.names, skeleton.parents, skeleton.offsets, motion.rotations, translations, motion.fps)
+    return write_rig_bvh(clip, path, scale=scale)
+
+
+def write_rig_bvh(clip: RigClip, path: str | Path, *, scale: float = 1.0) -> Path:
+    """Write any clip as :func:`write_bvh` does, its rest pose as the pose without rotations.
+
+    Joints other than the root get position channels where they move. Leaves called ``<parent>_end`` become End Sites,
+    other last joints an End Site of a fitting length.
+
+    Args:
+        clip: one joint tree, metres.
+        path: the file.
+        scale: file units per metre.
+    """
+    clip = _without_rest(clip)
+    writer = _Hierarchy(clip, scale, bone_tips(clip.names, clip.parents, clip.offsets))
+    lines = ["HIERARCHY", *writer.lines(0, ""), "MOTION", f"Frames: {clip.frames}"]
+    lines += [f"Frame Time: {1 / clip.fps:.10f}", *_rows(clip, writer.order, writer.moved, scale), ""]
+    content = "\n".join(lines).encode("utf-8")
+    return write_bytes(path, content)
+
+
+class _Hierarchy:
+    """Writes the joint tree; ``order`` is that of the joints with channels."""
+
+    def __init__(self, clip: RigClip, scale: float, tips: dict[int, npt.NDArray[np.floating]]) -> None:
+        self.clip, self.scale, self.tips = clip, scale, tips
+        self.order: list[int] = []
+        self.moved = _moved(clip)
+        self._inner = set(clip.parents)
+
+    def lines(self, joint: int, indent: str) -> Iterator[str]:
+        clip, inner = self.clip, indent + "\t"
+        root = clip.parents[joint] < 0
+        if self._is_end(joint):
+            yield from _end_site(clip.offsets[joint] * self.scale, indent)
+            return
+        self.order.append(joint)
+        yield f"{indent}{'ROOT' if root else 'JOINT'} {clip.names[joint]}"
+        yield f"{indent}{{"
+        yield f"{inner}OFFSET {_vector(np.zeros(3) if root else clip.offsets[joint] * self.scale)}"
+        yield f"{inner}CHANNELS {f'6 {_POSITIONS}' if self.moved[joint] else '3'} {_ROTATIONS}"
+        for child, parent in enumerate(clip.parents):
+            if parent == joint:
+                yield from self.lines(child, inner)
+        if joint in self.tips:
+            yield from _end_site(self.tips[joint] * self.scale, inner)
+        yield f"{indent}}}"
+
+    def _is_end(self, joint: int) -> bool:
+        return joint not in self._inner and self.clip.names[joint].endswith("_end") and self.clip.parents[joint] >= 0
+
+
+def _end_site(offset: npt.NDArray[np.floating], indent: str) -> list[str]:
+    return [f"{indent}End Site", f"{indent}{{", f"{indent}\tOFFSET {_vector(offset)}", f"{indent}}}"]
+
+
+def _moved(clip: RigClip) -> list[bool]:
+    size = float(np.abs(clip.offsets).max(initial=1e-9))
+    away = np.abs(clip.translations - clip.offsets).max(axis=(0, 2)) > _MOVES * size
+    return [bool(moves) or parent < 0 for moves, parent in zip(away, clip.parents, strict=True)]
+
+
+def _without_rest(clip: RigClip) -> RigClip:
+    """The same movement described from a rest pose without rotations."""
+    if clip.rest is None:
+        return clip
+    _, rest = fk(clip.rest.astype(np.float64), clip.offsets[0], clip.offsets, clip.parents)
+    above = [rest[parent] if parent >= 0 else np.eye(3) for parent in clip.parents]
+    rotations = np.einsum("jab,fjbc,jdc->fjad", np.stack(above), clip.rotations, rest)
+    offsets = np.einsum("jab,jb->ja", np.stack(above), clip.offsets)
+    translations = np.einsum("jab,fjb->fja", np.stack(above), clip.translations)
+    return replace(clip, rotations=rotations, offsets=offsets, translations=translations, rest=None)
+
+
+def _with_t_pose(motion: Motion) -> Motion:
+    skeleton = motion.skeleton
+    stand = np.array([motion.root[0, 0], -skeleton.rest_positions[:, 1].min(), motion.root[0, 2]])
+    rest = np.tile(np.eye(3), (1, len(skeleton), 1, 1))
+    return replace(
+        motion,
+        rotations=np.concatenate([rest, motion.rotations]).astype(np.float32),
+        root=np.concatenate([stand[None], motion.root]).astype(np.float32),
+    )
+
+
+def _rows(clip: RigClip, order: Sequence[int], moved: Sequence[bool], scale: float) -> list[str]:
+    columns = []
+    for joint in order:
+        if moved[joint]:
+            columns.append(clip.translations[:, joint].astype(np.float64) * scale)
+        columns.append(euler_degrees(clip.rotations[:, joint], _ORDER))
+    return value_rows(np.concatenate(columns, axis=1))
+
+
+def euler_degrees(rotations: npt.NDArray[np.floating], order: str) -> npt.NDArray[np.float64]:
+    """Angles ``(F, 3)`` in degrees of ``(F, 3, 3)``, without jumps by whole turns from frame to frame."""
+    return np.asarray(np.rad2deg(np.unwrap(matrix_to_euler(rotations.astype(np.float64), order), axis=0)))
+
+
+def value_rows(table: npt.NDArray[np.float64]) -> list[str]:
+    """Lines of the MOTION part: ``(F, C)`` with six decimals."""
+    row = " ".join(["%.6f"] * table.shape[1])
+    return [row % tuple(values) for values in (np.round(table, 6) + 0.0).tolist()]
+
+
+def _vector(values: npt.NDArray[np.floating]) -> str:
+    return " ".join(f"{value:.6f}" for value in np.round(values.astype(np.float64), 6) + 0.0)

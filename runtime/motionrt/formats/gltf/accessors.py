@@ -1,0 +1,125 @@
+"""Arrays out of a GLB file, with every count and offset checked before a byte is touched."""
+
+from __future__ import annotations
+
+import base64
+import binascii
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from motionrt.errors import FormatError
+from motionrt.formats.gltf.container import Json
+
+_TYPES = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
+_COMPONENTS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
+_LARGEST = {5120: 127.0, 5121: 255.0, 5122: 32767.0, 5123: 65535.0}
+NUMBER_LIMIT = 100_000_000
+"""Numbers that are read from one file at most."""
+
+_MESHOPT = ("EXT_meshopt_compression", "KHR_meshopt_compression")
+
+
+class GlbArrays:
+    """Reads accessors.
+
+    Args:
+        document: the glTF JSON.
+        binary: the binary chunk.
+        path: for messages.
+    """
+
+    def __init__(self, document: Json, binary: bytes, path: Path) -> None:
+        self._document, self._binary, self._path = document, binary, path
+        self._known: dict[int, npt.NDArray[np.float64]] = {}
+        self._decoded: dict[int, bytes] = {}
+        self._left = NUMBER_LIMIT
+
+    def read(self, accessor: int, what: str) -> npt.NDArray[np.float64]:
+        """Accessor as floats: ``(N,)``, ``(N, k)`` or ``(N, 4, 4)``; integers come as fractions.
+
+        Raises:
+            FormatError: sparse, compressed, outside of the file, or with numbers that are not finite; says ``what``.
+        """
+        if accessor not in self._known:
+            self._known[accessor] = self._read(accessor, what)
+        return self._known[accessor]
+
+    def count(self, accessor: int, what: str) -> int:
+        """How many elements an accessor says it has."""
+        count = self._entry("accessors", accessor, what).get("count")
+        return count if isinstance(count, int) else 0
+
+    def _read(self, accessor: int, what: str) -> npt.NDArray[np.float64]:
+        entry = self._entry("accessors", accessor, what)
+        if "sparse" in entry:
+            raise self._error(f"{what} is a sparse accessor; export without sparse accessors")
+        width, component = _TYPES.get(entry.get("type", ""), 0), entry.get("componentType")
+        count = entry["count"] if _whole(entry.get("count")) else 0
+        if not width or component not in _COMPONENTS or count < 1:
+            raise self._error(f"{what} has an accessor of an unknown kind")
+        rows = self._rows(entry, what, count, width, np.dtype(_COMPONENTS[component]))
+        self._left -= rows.size
+        if self._left < 0:
+            raise self._error(f"its animation holds more than {NUMBER_LIMIT} numbers; cut it")
+        values = rows.astype(np.float64)
+        if component in _LARGEST:
+            values = np.maximum(values / _LARGEST[component], -1.0)
+        if not np.isfinite(values).all():
+            raise self._error(f"{what} holds numbers that are not finite")
+        return _shaped(values, width)
+
+    def _rows(self, entry: Json, what: str, count: int, width: int, kind: np.dtype[Any]) -> npt.NDArray[Any]:
+        if "bufferView" not in entry:
+            raise self._error(f"{what} has no data: it is compressed, or zeros; export without compression")
+        view = self._entry("bufferViews", entry["bufferView"], what)
+        if any(name in view.get("extensions", {}) for name in _MESHOPT):
+            raise self._error(f"{what} is compressed with meshopt; export without compression")
+        content = self._buffer(view.get("buffer", 0), what)
+        size = width * kind.itemsize
+        stride = view.get("byteStride", size)
+        first, inside, length = view.get("byteOffset", 0), entry.get("byteOffset", 0), view.get("byteLength", 0)
+        if not all(_whole(number) and number >= 0 for number in (stride, first, inside, length)):
+            raise self._error(f"{what} has sizes that are no sizes: the file is damaged")
+        start, end = first + inside, first + length
+        if stride < size or start + stride * (count - 1) + size > min(end, len(content)):
+            raise self._error(f"{what} lies outside of the file's binary data: the file is damaged")
+        return np.ndarray((count, width), kind, content, start, (stride, kind.itemsize))
+
+    def _buffer(self, index: int, what: str) -> bytes:
+        if index not in self._decoded:
+            self._decoded[index] = self._decode(index, what)
+        return self._decoded[index]
+
+    def _decode(self, index: int, what: str) -> bytes:
+        uri = self._entry("buffers", index, what).get("uri")
+        if uri is None:
+            return self._binary if index == 0 else b""
+        if isinstance(uri, str) and uri.startswith("data:") and ";base64," in uri[:100]:
+            try:
+                return base64.b64decode(uri.split(",", 1)[1], validate=True)
+            except binascii.Error as error:
+                raise self._error(f"the data of {what} is not base64: {error}") from error
+        raise self._error(f"{what} lies in another file ('{str(uri)[:60]}'); save everything in one .glb")
+
+    def _entry(self, key: str, index: object, what: str) -> Json:
+        entries = self._document.get(key, [])
+        if not (_whole(index) and isinstance(index, int) and 0 <= index < len(entries)):
+            raise self._error(f"{what} refers to {key}[{index}], which does not exist")
+        entry: Json = entries[index]
+        return entry
+
+    def _error(self, reason: str) -> FormatError:
+        return FormatError(self._path, reason)
+
+
+def _shaped(values: npt.NDArray[np.float64], width: int) -> npt.NDArray[np.float64]:
+    if width == 16:
+        return np.swapaxes(values.reshape(-1, 4, 4), -1, -2)  # stored column by column
+    return values[:, 0] if width == 1 else values
+
+
+def _whole(number: object) -> bool:
+    return isinstance(number, int) and not isinstance(number, bool)

@@ -1,0 +1,112 @@
+"""One GLB file as a rig: its skeleton, its bind pose and the frames of one animation."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+
+from motionrt.errors import FormatError
+from motionrt.formats.gltf.accessors import GlbArrays
+from motionrt.formats.gltf.bind import bind_pose
+from motionrt.formats.gltf.choice import chosen, names_of
+from motionrt.formats.gltf.clock import USUAL_FPS, frame_times
+from motionrt.formats.gltf.container import Json, read_container
+from motionrt.formats.gltf.nodes import NodeTree, read_nodes
+from motionrt.formats.gltf.skeleton import GlbSkeleton, find_skeleton
+from motionrt.formats.gltf.tracks import Track, count_keys, read_tracks
+from motionrt.motion.rotations import Array, quaternion_to_matrix
+from motionrt.motion.skeleton import FloatArray
+from motionrt.rigs.clip import RigClip
+
+VALUE_LIMIT = 20_000_000
+"""Frames times joints of a clip at most: about 700 MB of rotations."""
+
+Tracks = dict[tuple[int, str], Track]
+
+
+@dataclass(frozen=True, eq=False)
+class GlbDocument:
+    """An open GLB file.
+
+    Attributes:
+        path: where it came from.
+        json: the glTF document.
+        binary: its binary chunk.
+        tree: all nodes.
+        skeleton: the joints.
+    """
+
+    path: Path
+    json: Json
+    binary: bytes
+    tree: NodeTree
+    skeleton: GlbSkeleton
+
+    @cached_property
+    def arrays(self) -> GlbArrays:
+        """Reader of the accessors."""
+        return GlbArrays(self.json, self.binary, self.path)
+
+    def tracks(self, animation: int | str | None) -> Tracks | None:
+        """Tracks of one animation that moves the skeleton; ``None`` if none does.
+
+        Raises:
+            FormatError: there are several and none is chosen; lists their names.
+        """
+        entries = self.json.get("animations", [])
+        names = names_of(entries)
+        if animation is not None:
+            return self._tracks(entries[chosen("animation", animation, names, self.path)]) or None
+        keys = [count_keys(entry, self.arrays, self._joints) for entry in entries]
+        found = [i for i, count in enumerate(keys) if count > 1] or [i for i, count in enumerate(keys) if count]
+        if len(found) > 1:
+            known = ", ".join(names[i] for i in found)
+            raise FormatError(self.path, f"holds {len(found)} animations; choose with animation=, one of: {known}")
+        return self._tracks(entries[found[0]]) if found else None
+
+    @property
+    def _joints(self) -> dict[int, int]:
+        """Node index -> joint."""
+        return {node: joint for joint, node in enumerate(self.skeleton.nodes)}
+
+    def _tracks(self, animation: Json) -> Tracks:
+        return read_tracks(animation, self.arrays, self._joints, self.path)
+
+    def clip(self, tracks: Tracks | None, fps: float | None = None) -> RigClip:
+        """All frames of ``tracks``; without any, the pose in which the nodes stand, as one frame."""
+        frames, rate, times = 1, USUAL_FPS if fps is None else float(fps), np.zeros(1)
+        if tracks:
+            start, rate, frames = frame_times((track.times for track in tracks.values()), fps)
+            if frames * len(self.skeleton.nodes) > VALUE_LIMIT:
+                raise FormatError(self.path, f"its animation has {frames} frames at {rate:g} fps; cut it")
+            times = start + np.arange(frames) / rate
+        offsets, rest = bind_pose(self.json, self.arrays, self.tree, self.skeleton)
+        rotations, translations = self._sampled(tracks or {}, times)
+        names, parents = self.skeleton.names, tuple(self.skeleton.parents)
+        return RigClip(names, parents, offsets, rotations, translations, rate, "y", 1.0, rest)
+
+    def _sampled(self, tracks: Tracks, times: Array) -> tuple[FloatArray, FloatArray]:
+        joints = len(self.skeleton.nodes)
+        rotations = np.empty((len(times), joints, 3, 3), dtype=np.float32)
+        translations = np.empty((len(times), joints, 3), dtype=np.float32)
+        for joint, node in enumerate(self.skeleton.nodes):
+            turn, move = tracks.get((joint, "rotation")), tracks.get((joint, "translation"))
+            rotations[:, joint] = self.tree.rotations[node] if turn is None else _matrices(turn.at(times))
+            places = self.tree.translations[node] if move is None else move.at(times)
+            translations[:, joint] = places * self.skeleton.units[joint]
+        return rotations, translations
+
+
+def open_glb(path: str | Path, skin: int | str | None = None) -> GlbDocument:
+    """Read a GLB file and find its skeleton; errors as :func:`motionrt.formats.gltf.read.read_glb`."""
+    path = Path(path)
+    document, binary = read_container(path)
+    tree = read_nodes(document, path)
+    return GlbDocument(path, document, binary, tree, find_skeleton(document, tree, path, skin))
+
+
+def _matrices(xyzw: Array) -> Array:
+    return quaternion_to_matrix(np.roll(xyzw, 1, axis=-1))

@@ -1,0 +1,158 @@
+"""Walks along paths, from a start to an end: the loop around :class:`motionrt.locomotion.crowd.Crowd`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+import numpy.typing as npt
+
+from motionrt.errors import InvalidInputError, WalkError
+from motionrt.locomotion.crowd import FPS, SPEED, Crowd, NextFrame, history_of, to_motion
+from motionrt.locomotion.path import Path
+from motionrt.locomotion.waypoints import RADIUS, WaypointTargets
+from motionrt.motion import Motion
+
+SPACING = 1.0  # metres between waypoints
+ARRIVED = 0.1  # metres from the end of a path that are as good as there
+PATIENCE_S = 8.0  # seconds without coming nearer to a waypoint after which a character is stuck
+NEARER = 0.02  # metres that count as nearer
+
+Progress = Callable[[int, int, str], None]
+"""Told now and then how much is done, of how much (metres of a walk, per cent of actions), and what is being done."""
+
+
+@dataclass(frozen=True)
+class Pace:
+    """How a path is walked.
+
+    Attributes:
+        speed: metres per second.
+        spacing: metres between the waypoints that the path is cut into.
+        radius: metres within which a waypoint counts as reached.
+        until: metres before the end of the path at which the walk breaks off; 0 walks to the end.
+    """
+
+    speed: float = SPEED
+    spacing: float = SPACING
+    radius: float = RADIUS
+    until: float = 0.0
+
+    def before_end(self, metres: float) -> Pace:
+        """The same, breaking off so many metres before the end."""
+        return replace(self, until=metres)
+
+    def __post_init__(self) -> None:
+        if not (0.3 <= self.speed <= 5.0):
+            raise InvalidInputError(f"speed must lie between 0.3 and 5 m/s (walking: 0.8 to 1.6), not {self.speed}")
+        if not (self.spacing > 0 and self.radius > 0 and self.until >= 0):
+            raise InvalidInputError("spacing and radius must be above 0 m, until not below")
+
+
+def walk(
+    model: NextFrame, start: Motion, path: Path, pace: Pace | None = None, progress: Progress | None = None
+) -> Motion:
+    """Walk along a path; see :func:`walk_together`."""
+    return walk_together(model, [start], [path], pace, progress)[0]
+
+
+def walk_together(
+    model: NextFrame,
+    starts: Sequence[Motion],
+    paths: Sequence[Path],
+    pace: Pace | None = None,
+    progress: Progress | None = None,
+) -> list[Motion]:
+    """Let characters walk, each along its path, all in one call of the model per frame.
+
+    Args:
+        model: predicts next frames.
+        starts: what each did in the last second, 30 fps, in the world.
+        paths: where each walks.
+        pace: how, the same for all.
+        progress: told every second how many metres are walked.
+
+    Returns:
+        The new frames of each, 30 fps; a walk ends at the end of its path, or where that has just been passed.
+
+    Raises:
+        WalkError: a character does not come nearer to its next waypoint for eight seconds, or walks off the numbers.
+        InvalidInputError: not as many starts as paths, or a start at another rate than 30 fps.
+    """
+    if len(starts) != len(paths) or not paths:
+        raise InvalidInputError(f"give one start for every path: {len(starts)} for {len(paths)}")
+    trips = [_Trip(path, pace or Pace(), motion.root[-1, [0, 2]]) for path, motion in zip(paths, starts, strict=True)]
+    crowd = Crowd(model, np.stack([history_of(motion) for motion in starts]))
+    walking = list(trips)
+    while walking:
+        stays = np.array([trip.goes_on(xz) for trip, xz in zip(walking, crowd.positions, strict=True)])
+        if not stays.all():
+            crowd.keep(stays)
+            walking = [trip for trip, stay in zip(walking, stays, strict=True) if stay]
+            continue
+        goals = np.stack([trip.goal for trip in walking])
+        for trip, frame in zip(walking, crowd.step(goals, walking[0].pace.speed), strict=True):
+            trip.frames.append(frame)
+        _tell(progress, trips)
+    return [trip.walked() for trip in trips]
+
+
+class _Trip:
+    """One character's way: its waypoints, what it walked, and whether it is there."""
+
+    def __init__(self, path: Path, pace: Pace, place: npt.NDArray[np.floating]) -> None:
+        marks = path.waypoints(pace.spacing)
+        self.pace, self.path = pace, path
+        self.routes = WaypointTargets([np.column_stack([marks.positions, marks.headings])], pace.radius)
+        self.end = path.at(path.length)
+        self.frames: list[npt.NDArray[np.float64]] = []
+        self.goal = self.routes.goals(place[None])[0]
+        self._best, self._best_frame, self._mark = np.inf, 0, -1
+
+    def goes_on(self, xz: npt.NDArray[np.float64]) -> bool:
+        """Whether there is more to walk from here; picks the next goal."""
+        self.goal = self.routes.goals(xz[None])[0]
+        away = float(np.hypot(*(self.goal[:2] - xz)))
+        if self.routes.index[0] != self._mark:
+            self._mark, self._best = self.routes.index[0], np.inf
+        if away < self._best - NEARER:
+            self._best, self._best_frame = away, len(self.frames)
+        if self._there(away, xz):
+            return False
+        self._check_progress(away, xz)
+        return True
+
+    def _there(self, away: float, xz: npt.NDArray[np.float64]) -> bool:
+        """Within reach of the end, or just past it."""
+        if away + self.path.length - self.done(1) <= max(self.pace.until, ARRIVED):
+            return True
+        if not self.routes.ends()[0]:
+            return False
+        x, z = xz - self.goal[:2]
+        passed = x * np.sin(self.goal[2]) + z * np.cos(self.goal[2]) > 0
+        return bool(passed and away < self.pace.radius * 3 and len(self.frames) > self._best_frame)
+
+    def _check_progress(self, away: float, xz: npt.NDArray[np.float64]) -> None:
+        if len(self.frames) - self._best_frame > PATIENCE_S * FPS:
+            raise WalkError(
+                f"the character stays {away:.2f} m from waypoint {self._mark + 1} of "
+                f"{len(self.routes.waypoints[0])} at x {self.goal[0]:.2f}, z {self.goal[1]:.2f} (it is at {xz[0]:.2f}, "
+                f"{xz[1]:.2f}); give the path wider turns, waypoints further apart, or a larger radius"
+            )
+
+    def done(self, more: int = 0) -> float:
+        """Metres of the path that lie behind, and those to so many waypoints on."""
+        return self.path.length * (self.routes.index[0] + more) / len(self.routes.waypoints[0])
+
+    def walked(self) -> Motion:
+        """The walk, at least one frame."""
+        if not self.frames:
+            raise InvalidInputError("the path ends where the character already is: nothing to walk")
+        return to_motion(np.stack(self.frames))
+
+
+def _tell(progress: Progress | None, trips: Sequence[_Trip]) -> None:
+    if progress is not None and max(len(trip.frames) for trip in trips) % int(FPS) == 0:
+        done, total = sum(trip.done() for trip in trips), sum(trip.path.length for trip in trips)
+        progress(round(done), max(1, round(total)), f"walked {done:.0f} m")

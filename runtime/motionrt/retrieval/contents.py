@@ -1,0 +1,40 @@
+"""What a gallery holds, without what it does: the value that :mod:`~motionrt.retrieval.layout` reads and writes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+from motionrt.errors import FormatError
+from motionrt.formats.motion_pack import MotionPack
+from motionrt.motion.skeleton import FloatArray
+from motionrt.retrieval import store
+from motionrt.retrieval.records import Clip, ModelStamp, Skipped, WindowTable
+
+
+@dataclass(frozen=True, eq=False)
+class Contents:
+    """The parts of a gallery; see :class:`motionrt.retrieval.Gallery` for each of them."""
+
+    clips: tuple[Clip, ...]
+    embeddings: FloatArray
+    windows: WindowTable
+    model: ModelStamp
+    source: Path | None = None
+    skipped: tuple[Skipped, ...] = ()
+    mapping: Mapping[str, str] | None = None
+    motions: MotionPack | Path | None = None
+    folder: Path | None = None
+    neighbours: Path | None = None
+
+    @cached_property
+    def pack(self) -> MotionPack | None:
+        """The motions that the gallery carries, read when first needed."""
+        if not isinstance(self.motions, Path):
+            return self.motions
+        try:
+            return MotionPack.read(self.motions)
+        except FormatError as error:
+            raise store.damaged(error.path, error.reason) from error

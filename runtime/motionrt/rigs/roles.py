@@ -1,0 +1,181 @@
+"""Which joint of a rig plays which role of ``smpl24``: the user's word, then names, then structure."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from difflib import get_close_matches
+from itertools import pairwise
+
+from motionrt.errors import RigError
+from motionrt.motion.skeleton import SMPL24
+from motionrt.rigs.names import roles_from_names
+from motionrt.rigs.structure import roles_from_structure
+from motionrt.rigs.tree import RigTree
+
+LEGS = ("hip", "knee", "ankle")
+ARMS = ("shoulder", "elbow", "wrist")
+REQUIRED = tuple(f"{side}_{part}" for part in LEGS + ARMS for side in ("left", "right"))
+
+
+@dataclass(frozen=True)
+class RigRoles:
+    """The cast of a rig.
+
+    Attributes:
+        joints: ``smpl24`` role -> joint index; ``REQUIRED`` and ``pelvis`` are always there.
+        spine: joints above the pelvis up to the chest, lowest first; may be empty.
+        neck: joints above the chest up to the head; may be empty only if the rig has neither neck nor head.
+        sided: whether left and right are settled (by names or the user) or only a guess (structure).
+    """
+
+    joints: Mapping[str, int]
+    spine: tuple[int, ...]
+    neck: tuple[int, ...]
+    sided: bool
+
+    def swapped(self) -> RigRoles:
+        """The same cast with left and right exchanged."""
+        return RigRoles(_swapped(self.joints), self.spine, self.neck, True)
+
+
+def _swapped(roles: Mapping[str, int]) -> dict[str, int]:
+    names = SMPL24.names
+    return {names[SMPL24.mirrored_joints[names.index(role)]]: joint for role, joint in roles.items()}
+
+
+def assign_roles(tree: RigTree, mapping: Mapping[str, str] | None) -> RigRoles:
+    """Decide the roles of ``tree``.
+
+    Args:
+        tree: the rig.
+        mapping: ``smpl24`` joint name -> rig joint name, complete or partial; it is believed.
+
+    Raises:
+        RigError: unknown names in ``mapping``, or required joints that neither names nor structure reveal.
+    """
+    given = _given_roles(tree, mapping or {})
+    named = _completed(tree, roles_from_names(tree, given))
+    sided = True
+    if _missing(named) or _misplaced(tree, named):
+        named = _from_structure(tree, given, named)
+        sided = any("_" in role for role in given)
+    if "pelvis" not in given:
+        _settle_pelvis(tree, named)
+    spine, neck = _trunk(tree, named)
+    _complete_collars(tree, named)
+    if "neck" not in given:
+        named.pop("neck", None)  # a neck of several joints is resampled as a whole, see RigRoles.neck
+    return RigRoles(named, spine, neck, sided)
+
+
+def _given_roles(tree: RigTree, mapping: Mapping[str, str]) -> dict[str, int]:
+    roles = {}
+    for role, name in mapping.items():
+        if role not in SMPL24.names:
+            raise RigError(f"mapping has the unknown key '{role}'; keys are smpl24 joints: {', '.join(SMPL24.names)}")
+        found = [joint for joint, other in enumerate(tree.names) if other == name]
+        if len(found) != 1:
+            near = get_close_matches(name, tree.names, n=5, cutoff=0.3) or list(tree.names)
+            problem = "has no joint" if not found else f"has {len(found)} joints called"
+            raise RigError(f"mapping['{role}']: the rig {problem} '{name}'; it has {', '.join(near)}")
+        roles[role] = found[0]
+    return roles
+
+
+def _completed(tree: RigTree, roles: dict[str, int]) -> dict[str, int]:
+    """Fill in what needs no name: limb ends that are just the next joint (or end site) of the chain."""
+    for side in ("left", "right"):
+        for role, above in (("wrist", "elbow"), ("hand", "wrist"), ("foot", "ankle")):
+            if f"{side}_{role}" not in roles and f"{side}_{above}" in roles:
+                below = tree.next_away(roles[f"{side}_{above}"])
+                if below is not None:
+                    roles[f"{side}_{role}"] = below
+    return roles
+
+
+def _missing(roles: Mapping[str, int]) -> list[str]:
+    return [role for role in REQUIRED if role not in roles]
+
+
+def _misplaced(tree: RigTree, roles: Mapping[str, int]) -> list[str]:
+    """Roles that are not below the joint they should hang on, or that share a joint."""
+    bad = []
+    for side in ("left", "right"):
+        for line in (LEGS, ARMS):
+            for upper, lower in pairwise(line):
+                if not tree.is_above(roles[f"{side}_{upper}"], roles[f"{side}_{lower}"]):
+                    bad.append(f"{side}_{lower}")
+    return bad + [f"right_{part}" for part in LEGS + ARMS if roles[f"left_{part}"] == roles[f"right_{part}"]]
+
+
+def _from_structure(tree: RigTree, given: Mapping[str, int], named: Mapping[str, int]) -> dict[str, int]:
+    try:
+        found = roles_from_structure(tree)
+    except RigError as error:
+        missing = _missing(named)
+        if len(missing) == len(REQUIRED):
+            raise
+        raise RigError(_lacking(tree, missing or _misplaced(tree, named))) from error
+    if any(_swapped(found).get(role) == joint for role, joint in given.items()):
+        found = _swapped(found)
+    roles = _completed(tree, {**found, **given})
+    bad = _misplaced(tree, roles)
+    if bad:
+        raise RigError(_lacking(tree, bad))
+    return roles
+
+
+def _lacking(tree: RigTree, roles: list[str]) -> str:
+    return (
+        f"the rig has no usable joint for {', '.join(roles)};"
+        f" name them with mapping={{'{roles[0]}': '<joint name>', ...}}"
+        f" (its joints are {', '.join(tree.names)})"
+    )
+
+
+def _meeting(tree: RigTree, joints: list[int], what: str) -> int:
+    meeting = tree.meeting(joints)
+    if meeting is None or meeting in joints:
+        raise RigError(f"the {what} of the rig do not hang on one common joint; is it one figure?")
+    return meeting
+
+
+def _settle_pelvis(tree: RigTree, roles: dict[str, int]) -> None:
+    """A named pelvis counts if both legs hang on it, otherwise the joint on which they do."""
+    hips = [roles["left_hip"], roles["right_hip"]]
+    pelvis = roles.get("pelvis")
+    if pelvis is None or not all(tree.is_above(pelvis, hip) for hip in hips):
+        roles["pelvis"] = _meeting(tree, hips, "hips")
+
+
+def _complete_collars(tree: RigTree, roles: dict[str, int]) -> None:
+    """A joint between chest and shoulder is the collar even if its name does not say so."""
+    chest = _meeting(tree, [roles["left_shoulder"], roles["right_shoulder"]], "shoulders")
+    for side in ("left", "right"):
+        between = tree.path(chest, roles[f"{side}_shoulder"])[:-1]
+        if between:
+            roles.setdefault(f"{side}_collar", between[-1])
+
+
+def _trunk(tree: RigTree, roles: dict[str, int]) -> tuple[tuple[int, ...], tuple[int, ...]]:
+    """The joints of spine and neck: from the pelvis to the chest and on to the head, or what there is."""
+    chest = _meeting(tree, [roles["left_shoulder"], roles["right_shoulder"]], "shoulders")
+    base = tree.meeting([roles["pelvis"], chest])
+    spine = tree.path(base, chest) if base is not None else []
+    top = roles.get("head", roles.get("neck"))
+    if top is None:
+        top = _unnamed_head(tree, chest, roles)
+    neck = tree.path(chest, top) if top is not None else []
+    if not neck:
+        raise RigError("the rig has neither head nor neck above its shoulders; name one with mapping={'head': ...}")
+    return tuple(spine), tuple(neck)
+
+
+def _unnamed_head(tree: RigTree, chest: int, roles: Mapping[str, int]) -> int | None:
+    arms = {joint for side in ("left", "right") for joint in tree.ancestors(roles[f"{side}_shoulder"])}
+    free = [child for child in tree.children[chest] if child not in arms]
+    if not free:
+        return None
+    chain = max((tree.longest_chain(child) for child in free), key=lambda line: tree.span(chest, line[-1]))
+    return chain[-2] if len(chain) > 1 and tree.names[chain[-1]].endswith("_end") else chain[-1]

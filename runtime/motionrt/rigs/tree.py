@@ -1,0 +1,105 @@
+"""Questions about a rig's joint tree: ancestors, paths, bone lengths."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+
+import numpy as np
+
+from motionrt.motion.rotations import Array
+from motionrt.rigs.clip import RigClip
+
+_COINCIDENT = 0.08
+"""A bone shorter than this share of the median bone counts as none: its two joints stand in one place."""
+
+
+class RigTree:
+    """The joint tree of a rig, with the typical (median over the clip) length of every bone in file units."""
+
+    def __init__(self, clip: RigClip) -> None:
+        self.names: Sequence[str] = clip.names
+        self.parents: Sequence[int] = clip.parents
+        lengths = np.linalg.norm(np.asarray(clip.translations, dtype=np.float64), axis=-1)
+        self.lengths: Array = np.median(lengths, axis=0) if len(lengths) else np.linalg.norm(clip.offsets, axis=-1)
+        self.lengths[[joint for joint, parent in enumerate(self.parents) if parent < 0]] = 0
+
+    def __len__(self) -> int:
+        return len(self.names)
+
+    @cached_property
+    def children(self) -> list[list[int]]:
+        """Child indices of every joint."""
+        out: list[list[int]] = [[] for _ in self.parents]
+        for joint, parent in enumerate(self.parents):
+            if parent >= 0:
+                out[parent].append(joint)
+        return out
+
+    @cached_property
+    def negligible(self) -> float:
+        """Bone length in file units below which two joints count as one place."""
+        bones = self.lengths[self.lengths > 0]
+        return _COINCIDENT * float(np.median(bones)) if len(bones) else 0.0
+
+    def ancestors(self, joint: int) -> list[int]:
+        """``joint`` and everything above it, nearest first."""
+        out = []
+        while joint >= 0:
+            out.append(joint)
+            joint = self.parents[joint]
+        return out
+
+    def is_above(self, upper: int, lower: int) -> bool:
+        """Whether ``upper`` is a proper ancestor of ``lower``."""
+        return upper != lower and upper in self.ancestors(lower)
+
+    def meeting(self, joints: Sequence[int]) -> int | None:
+        """The lowest common ancestor of ``joints`` (each counts as its own ancestor); ``None`` in separate
+        trees.
+        """
+        shared = self.ancestors(joints[0])
+        for joint in joints[1:]:
+            others = set(self.ancestors(joint))
+            shared = [candidate for candidate in shared if candidate in others]
+        return shared[0] if shared else None
+
+    def path(self, upper: int, lower: int) -> list[int]:
+        """Joints from ``upper`` (exclusive) down to ``lower`` (inclusive); empty if ``upper`` is not above
+        it.
+        """
+        line = self.ancestors(lower)
+        return line[: line.index(upper)][::-1] if upper in line else []
+
+    def descendants(self, joint: int) -> list[int]:
+        """Everything below ``joint``, parents before children."""
+        below = {joint}
+        for other in range(joint + 1, len(self)):
+            if self.parents[other] in below:
+                below.add(other)
+        return sorted(below - {joint})
+
+    def span(self, upper: int, lower: int) -> float:
+        """Summed bone length from ``upper`` down to ``lower``."""
+        return float(sum(self.lengths[joint] for joint in self.path(upper, lower)))
+
+    def next_away(self, joint: int) -> int | None:
+        """The nearest descendant that stands in another place than ``joint``; of siblings the farthest."""
+        here = [joint]
+        while here:
+            below = [child for upper in here for child in self.children[upper]]
+            away = [child for child in below if self.span(joint, child) > self.negligible]
+            if away:
+                return max(away, key=lambda child: float(self.lengths[child]))
+            here = below
+        return None
+
+    def longest_chain(self, joint: int) -> list[int]:
+        """``joint`` and the line of descendants with the greatest summed length."""
+        chain = [joint]
+        while self.children[chain[-1]]:
+            chain.append(max(self.children[chain[-1]], key=self._reach))
+        return chain
+
+    def _reach(self, joint: int) -> float:
+        return float(self.lengths[joint]) + max(map(self._reach, self.children[joint]), default=0.0)

@@ -1,0 +1,101 @@
+"""Walks along paths: all waypoints, in time, and an error instead of a character that never arrives."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from fake_character_models import FPS, stays, towards_goal
+from motions import walking
+
+from motionrt.errors import InvalidInputError, WalkError
+from motionrt.locomotion.goal_frame import Goal, uncanonicalise
+from motionrt.locomotion.path import Path
+from motionrt.locomotion.path_following import PATIENCE_S, Pace, walk, walk_together
+from motionrt.locomotion.starting_poses import stride_of
+from motionrt.metrics import waypoints_reached
+
+STRIDE = stride_of(walking(40, FPS))
+CORNER = Path(np.array([[0, 0], [0, 6], [5, 6]], np.float32))
+
+
+def test_a_walk_takes_the_time_that_its_length_and_speed_say() -> None:
+    path = Path(np.array([[0, 0], [0, 9]], np.float32))
+    motion = walk(towards_goal, STRIDE, path, Pace(speed=1.5))
+    assert motion.frames == pytest.approx(9 / 1.5 * FPS, abs=3)
+    np.testing.assert_allclose(motion.root[-1, [0, 2]], [0, 9], atol=0.1)
+    assert motion.root[0, 2] == pytest.approx(1.5 / FPS, abs=1e-4)  # the first new frame
+
+
+def test_every_waypoint_of_a_path_with_corners_is_passed() -> None:
+    motion = walk(towards_goal, STRIDE, CORNER)
+    assert waypoints_reached(motion.root[:, [0, 2]], CORNER.waypoints(1.0).positions, 0.4) == 1.0
+
+
+def test_a_walk_breaks_off_before_the_end_if_asked_to() -> None:
+    motion = walk(towards_goal, STRIDE, CORNER, Pace().before_end(1.2))
+    assert np.linalg.norm(motion.root[-1, [0, 2]] - [5, 6]) == pytest.approx(1.2, abs=0.05)
+
+
+def test_characters_of_different_ways_end_each_at_its_own() -> None:
+    paths = [CORNER, Path(np.array([[3, 0], [3, 2]], np.float32)), Path(np.array([[-2, 0], [-2, 12]], np.float32))]
+    starts = [uncanonicalise(STRIDE, Goal(x, 0.0)) for x in (0.0, 3.0, -2.0)]
+    together = walk_together(towards_goal, starts, paths)
+    for motion, start, path in zip(together, starts, paths, strict=True):
+        alone = walk(towards_goal, start, path)
+        assert motion.frames == alone.frames
+        np.testing.assert_allclose(motion.root, alone.root, atol=1e-4)
+        np.testing.assert_allclose(motion.rotations, alone.rotations, atol=1e-4)
+
+
+def test_a_character_that_is_stuck_is_an_error_and_no_endless_loop() -> None:
+    with pytest.raises(WalkError, match=r"stays 1\.00 m from waypoint 1 of 11 at x 0\.00, z 1\.00"):
+        walk(stays, STRIDE, CORNER)
+
+
+def test_a_character_that_walks_round_its_goal_is_stuck_too() -> None:
+    calls = [0]
+
+    def sideways(frames: np.ndarray, speed: np.ndarray) -> np.ndarray:
+        calls[0] += 1
+        out = frames[:, -1].copy()
+        x, z = out[:, 216].copy(), out[:, 218].copy()
+        turn = 0.04
+        out[:, 216], out[:, 218] = x * np.cos(turn) - z * np.sin(turn), x * np.sin(turn) + z * np.cos(turn)
+        return out
+
+    with pytest.raises(WalkError, match="larger radius"):
+        walk(sideways, STRIDE, Path(np.array([[0, 0], [0, 3]], np.float32)), Pace(spacing=3.0))
+    assert calls[0] <= PATIENCE_S * FPS + 1
+
+
+def test_progress_counts_the_metres_of_all() -> None:
+    told: list[tuple[int, int, str]] = []
+    walk_together(towards_goal, [STRIDE, STRIDE], [CORNER, CORNER], progress=lambda *each: told.append(each))
+    done, total, _ = zip(*told, strict=True)
+    assert set(total) == {22}
+    assert list(done) == sorted(done)
+    assert 0 < done[-1] <= 22
+
+
+@pytest.mark.parametrize("speed", [0.0, 0.2, 9.0, float("nan")])
+def test_a_speed_that_nobody_walks_is_refused(speed: float) -> None:
+    with pytest.raises(InvalidInputError, match=r"0\.3 and 5 m/s"):
+        Pace(speed=speed)
+
+
+@pytest.mark.parametrize("bad", [{"spacing": 0.0}, {"radius": -1.0}, {"until": -0.1}])
+def test_distances_that_make_no_sense_are_refused(bad: dict[str, float]) -> None:
+    with pytest.raises(InvalidInputError, match="spacing and radius"):
+        Pace(**bad)
+
+
+def test_as_many_starts_as_paths_are_needed() -> None:
+    with pytest.raises(InvalidInputError, match="one start for every path"):
+        walk_together(towards_goal, [STRIDE], [CORNER, CORNER])
+    with pytest.raises(InvalidInputError, match="one start for every path"):
+        walk_together(towards_goal, [], [])
+
+
+def test_a_path_that_ends_here_is_refused() -> None:
+    with pytest.raises(InvalidInputError, match="nothing to walk"):
+        walk(towards_goal, STRIDE, Path(np.array([[0, -0.5], [0, 0.05]], np.float32)))
