@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from motionrt.locomotion.actions import HOLD_S, Act, Action, Do, Follow, Stand, Wait, WalkTo
-from motionrt.locomotion.paths import Path
+from motionrt.locomotion.path import Path
 from motionrt.locomotion.script_nodes import Node, unknown
 from motionrt.locomotion.script_scene import file_beside
 from motionrt.motion import SMPL24

@@ -28,7 +28,7 @@ from motionrt.rigs.placement import place_root
 from motionrt.rigs.pose import RigPose
 from motionrt.rigs.repairs import settle_head, unroll_feet
 from motionrt.rigs.rest_bend import without_rest_bend
-from motionrt.rigs.roles import cast_roles
+from motionrt.rigs.roles import assign_roles
 from motionrt.rigs.stance import read_stance
 from motionrt.rigs.steady_trunk import with_steady_trunk
 from motionrt.rigs.tree import RigTree
@@ -60,7 +60,7 @@ def to_smpl24(
     if own is not None:
         return own
     poses = [clip.rest_rotations()] if reference is None else [reference, clip.rest_rotations()]
-    roles = cast_roles(RigTree(clip), mapping)
+    roles = assign_roles(RigTree(clip), mapping)
     clip = without_rest_bend(clip, roles, reference)
     stance = read_stance(clip, mapping, poses, roles)
     motion, to_world = with_steady_trunk(clip, stance), stance.to_world

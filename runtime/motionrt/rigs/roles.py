@@ -49,7 +49,7 @@ def _swapped(roles: Mapping[str, int]) -> dict[str, int]:
     return {names[SMPL24.mirrored_joints[names.index(role)]]: joint for role, joint in roles.items()}
 
 
-def cast_roles(tree: RigTree, mapping: Mapping[str, str] | None) -> RigRoles:
+def assign_roles(tree: RigTree, mapping: Mapping[str, str] | None) -> RigRoles:
     """Decide the roles of ``tree``.
 
     Args:

@@ -16,7 +16,7 @@ from motionrt.rigs.calibration import align_from_motion
 from motionrt.rigs.clip import RigClip
 from motionrt.rigs.elbows import align_elbows
 from motionrt.rigs.pose import RigPose, animated_pose, standing_axes, still_pose
-from motionrt.rigs.roles import RigRoles, cast_roles
+from motionrt.rigs.roles import RigRoles, assign_roles
 from motionrt.rigs.tree import RigTree
 
 _CROSSED = -0.5
@@ -57,7 +57,7 @@ def read_stance(
     Raises:
         RigError: the rig is no humanoid, or joints are missing or ambiguous.
     """
-    roles = cast_roles(RigTree(clip), mapping) if roles is None else roles
+    roles = assign_roles(RigTree(clip), mapping) if roles is None else roles
     motion = animated_pose(clip, roles)
     if not np.isfinite(motion.positions).all():
         raise RigError("the clip holds positions that are not finite")
