@@ -2,7 +2,7 @@
 
     python benchmarks/all.py --out docs/bench [--quick] [--install] [--figures docs/bench/bench.json]
 
-Measures every road with one and two threads in turn with torch, and texts with torch + transformers (whichever of them
+Measures every benchmark with one and two threads beside torch, and texts beside torch + transformers (whichever of them
 is installed), galleries up to a million clips, cold starts, memory, and the limits of the machine: some eight minutes
 on two idle cores. Writes OUT/bench.json and OUT/bench.png, the README's table and the tables of docs/performance.md
 (both between `<!-- bench -->` and `<!-- /bench -->`), and tells what would come into the manifest.

@@ -9,8 +9,8 @@ import json
 from pathlib import Path
 
 from motionrt import SMPL24
-from motionrt.locomotion.poses import stride
-from motionrt.locomotion.walking import history_of
+from motionrt.locomotion.crowd import history_of
+from motionrt.locomotion.starting_poses import stride
 
 
 def start() -> dict[str, object]:

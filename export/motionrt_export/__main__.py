@@ -26,9 +26,9 @@ import torch
 from motionrt import Runtime
 from motionrt_export.layout import Layout
 from motionrt_export.measured import NAME, Measured
-from motionrt_export.proving import apart, validate_all, validate_file, validate_road
+from motionrt_export.pipelines import PIPELINES
+from motionrt_export.proving import apart, validate_all, validate_file, validate_pipeline
 from motionrt_export.publish import publish
-from motionrt_export.roads import ROADS
 from motionrt_export.sources import Sources
 from motionrt_export.starter import embed_starter
 from motionrt_export.validate import ValidationError
@@ -59,7 +59,7 @@ def parser() -> argparse.ArgumentParser:
     proof = commands.add_parser("validate", help="everything that is there, or one file; prints figures as JSON")
     _add_inputs(proof, figures=False)
     proof.add_argument("--all", action="store_true", help="every file of the manifest, and what they make together")
-    proof.add_argument("--road", choices=ROADS, help="what the files of the manifest make together")
+    proof.add_argument("--pipeline", choices=PIPELINES, help="what the files of the manifest make together")
     proof.add_argument("--model", help="one file: of this model")
     proof.add_argument("--variant", help="of this variant")
     proof.add_argument("--file", type=Path, help="which is here")
@@ -101,12 +101,12 @@ def _validate(args: argparse.Namespace) -> int:
         return 1 if failed else 0
     torch.set_num_threads(1)  # figures must not depend on the number of cores
     sources = Sources(args.checkpoints)
-    if args.road:
-        print(json.dumps(validate_road(sources, args.road, args.manifest)))
+    if args.pipeline:
+        print(json.dumps(validate_pipeline(sources, args.pipeline, args.manifest)))
     elif args.model and args.variant and args.file:
         print(json.dumps(validate_file(sources, args.model, args.variant, args.file, args.exact)))
     else:
-        raise ValueError("give --all, or --road, or --model, --variant and --file")
+        raise ValueError("give --all, or --pipeline, or --model, --variant and --file")
     return 0
 
 

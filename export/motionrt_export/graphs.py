@@ -1,4 +1,4 @@
-"""The modules as they are exported: what each road needs and no more, with the normalisation inside."""
+"""The modules as they are exported: what each use needs and no more, with the normalisation inside."""
 
 from __future__ import annotations
 

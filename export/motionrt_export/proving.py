@@ -14,10 +14,10 @@ from motionrt import Runtime
 from motionrt.models import Manifest, Model, Variant, load_manifest
 from motionrt_export.measures import Figures, beyond
 from motionrt_export.optimise import FP32, QUANTISED
-from motionrt_export.publish import Check, Proof, RoadCheck, Say
-from motionrt_export.roads import ROADS
+from motionrt_export.pipelines import PIPELINES
+from motionrt_export.publish import Check, PipelineCheck, Proof, Say
 from motionrt_export.sources import Sources
-from motionrt_export.tolerances import road_tolerance, tolerance
+from motionrt_export.tolerances import pipeline_tolerance, tolerance
 from motionrt_export.torch_runtime import TorchRuntime
 from motionrt_export.validate import Subject, ValidationError, validate
 
@@ -46,9 +46,9 @@ def validate_file(sources: Sources, model: str, variant: str, file: Path, exact:
     return validate(subject_of(sources, model, variant, file, exact))
 
 
-def validate_road(sources: Sources, road: str, manifest: Path, **size: Any) -> dict[str, Figures]:
+def validate_pipeline(sources: Sources, pipeline: str, manifest: Path, **size: Any) -> dict[str, Figures]:
     """Figures of what the files of every variant make together; those that are not built are left out."""
-    drift, found = ROADS[road](TorchRuntime(sources), **size), load_manifest(manifest)
+    drift, found = PIPELINES[pipeline](TorchRuntime(sources), **size), load_manifest(manifest)
     built = [variant for variant in sorted(found.variants) if not _missing(found, variant)]
     return {variant: drift(Runtime(manifest, variant=variant, threads=1)) for variant in built}
 
@@ -66,12 +66,12 @@ def apart(checkpoints: Path) -> Proof:
         found: Figures = _run({**options, "--checkpoints": checkpoints}, f"{path}")
         return found
 
-    def road(name: str, manifest: Path) -> dict[str, Figures]:
-        options = {"--road": name, "--manifest": manifest, "--checkpoints": checkpoints}
+    def pipeline(name: str, manifest: Path) -> dict[str, Figures]:
+        options = {"--pipeline": name, "--manifest": manifest, "--checkpoints": checkpoints}
         found: dict[str, Figures] = _run(options, name)
         return found
 
-    return Proof(file, road)
+    return Proof(file, pipeline)
 
 
 def _run(options: dict[str, object], name: str) -> Any:
@@ -93,8 +93,8 @@ def validate_all(manifest: Path, proof: Proof, say: Say) -> list[str]:
         for variant in model.variants.values():
             name = str(found.locate(variant.file))
             failed += _tried(partial(_file, found, model, variant, proof.file), name, say)
-    for road in ROADS:
-        failed += _tried(partial(_road, road, manifest, proof.road), road, say)
+    for pipeline in PIPELINES:
+        failed += _tried(partial(_pipeline, pipeline, manifest, proof.pipeline), pipeline, say)
     return failed
 
 
@@ -109,10 +109,10 @@ def _file(manifest: Manifest, model: Model, variant: Variant, check: Check) -> s
     return "within its tolerance"
 
 
-def _road(road: str, manifest: Path, check: RoadCheck) -> str:
-    found = check(road, manifest)
+def _pipeline(pipeline: str, manifest: Path, check: PipelineCheck) -> str:
+    found = check(pipeline, manifest)
     for variant, figures in found.items():
-        if broken := beyond(figures, road_tolerance(road, variant)):
+        if broken := beyond(figures, pipeline_tolerance(pipeline, variant)):
             raise ValidationError(f"with the {variant} files: {'; '.join(broken)}")
     return f"within its tolerance with {', '.join(found) or 'no variant: files are not built'}"
 

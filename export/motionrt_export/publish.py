@@ -16,10 +16,10 @@ from motionrt_export.layout import Layout
 from motionrt_export.measured import Measured
 from motionrt_export.measures import Figures, beyond, rounded
 from motionrt_export.optimise import CHOICES, FP16, FP32, QUANTISED, is_shipped, preferred, quantise, variants
+from motionrt_export.pipelines import PIPELINES
 from motionrt_export.provenance import producers, recipe, statistics, trained_quality
-from motionrt_export.roads import ROADS
 from motionrt_export.sources import Source, Sources
-from motionrt_export.tolerances import road_tolerance, tolerance
+from motionrt_export.tolerances import pipeline_tolerance, tolerance
 from motionrt_export.trace import trace
 from motionrt_export.validate import ValidationError
 from motionrt_training.networks.minilm import MAX_TOKENS
@@ -28,8 +28,8 @@ HEADING = "Every shipped model. Written by `python -m motionrt_export all --chec
 
 Check = Callable[[str, str, Path, Path | None], Figures]
 """Model, variant, file, float32 file -> worst figures; raises where they are beyond the tolerance."""
-RoadCheck = Callable[[str, Path], Mapping[str, Figures]]
-"""Name of a road, manifest of the files -> figures of every variant."""
+PipelineCheck = Callable[[str, Path], Mapping[str, Figures]]
+"""Name of a pipeline, manifest of the files -> figures of every variant."""
 Say = Callable[[str], None]
 
 
@@ -38,7 +38,7 @@ class Proof:
     """Who proves the files, one by one and together."""
 
     file: Check
-    road: RoadCheck
+    pipeline: PipelineCheck
 
 
 def publish(sources: Sources, layout: Layout, proof: Proof, measured: Measured, say: Say) -> None:
@@ -59,8 +59,8 @@ def publish(sources: Sources, layout: Layout, proof: Proof, measured: Measured, 
         entries[name] = _entry(source, proven, layout, tokens)
     try:
         write_manifest(layout.draft, entries, HEADING)
-        for road in ROADS:
-            _prove_road(road, entries, proof.road(road, layout.draft), say)
+        for pipeline in PIPELINES:
+            _prove_pipeline(pipeline, entries, proof.pipeline(pipeline, layout.draft), say)
     finally:
         layout.draft.unlink(missing_ok=True)
     write_manifest(layout.manifest, entries, HEADING)
@@ -70,14 +70,14 @@ def publish(sources: Sources, layout: Layout, proof: Proof, measured: Measured, 
     say(f"{layout.manifest}: {len(entries)} models")
 
 
-def _prove_road(road: str, entries: Mapping[str, Entry], found: Mapping[str, Figures], say: Say) -> None:
-    """Check what the files make together, and note it at the model that owns the road."""
-    proven = entries[ROADS[road].owner]["variants"]
+def _prove_pipeline(pipeline: str, entries: Mapping[str, Entry], found: Mapping[str, Figures], say: Say) -> None:
+    """Check what the files make together, and note it at the model that owns the pipeline."""
+    proven = entries[PIPELINES[pipeline].owner]["variants"]
     for variant, figures in found.items():
-        limits = road_tolerance(road, variant)
+        limits = pipeline_tolerance(pipeline, variant)
         if broken := beyond(figures, limits):
-            raise ValidationError(f"{road} with the {variant} files: {'; '.join(broken)}")
-        say(f"{road}, {variant}: {_shown(figures, limits)}")
+            raise ValidationError(f"{pipeline} with the {variant} files: {'; '.join(broken)}")
+        say(f"{pipeline}, {variant}: {_shown(figures, limits)}")
         proven[variant]["tolerance"] |= limits
         proven[variant]["parity"] |= rounded(figures)
 

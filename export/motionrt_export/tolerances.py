@@ -74,7 +74,7 @@ INT8: dict[str, Figures] = {
 }
 
 _SAME_WORK = {"segments_missed": 0.0, "seconds_ratio": 1.05, "path_deviation_ratio": 1.05, "foot_skate_ratio": 1.05}
-ROADS: dict[str, dict[str, Figures]] = {
+PIPELINES: dict[str, dict[str, Figures]] = {
     "composition": {
         FP32: {"composition": {"joints_cm": 0.05, "end_cm": 0.2, "foot_skate_ratio": 1.01, "other_parts_percent": 1.0}},
         QUANTISED: {
@@ -97,7 +97,7 @@ def tolerance(model: str, variant: str) -> Figures:
     return promised[variant][model]
 
 
-def road_tolerance(road: str, variant: str) -> Figures:
-    """What is promised of a road with all files of a variant; where a model has no such file, with its default."""
-    limits = ROADS[road]
+def pipeline_tolerance(pipeline: str, variant: str) -> Figures:
+    """What is promised of a pipeline with all files of a variant; where a model has no such file, with its default."""
+    limits = PIPELINES[pipeline]
     return limits[QUANTISED if variant == QUANTISED else FP32]

@@ -1,6 +1,6 @@
 """Texts to motions with the torch modules, for `motionrt bench --against torch`.
 
-The same road with torch modules in the place of the sessions; with and without the text in one batch, as in training.
+The same steps with torch modules in the place of the sessions; with and without the text in one batch, as in training.
 """
 
 from __future__ import annotations

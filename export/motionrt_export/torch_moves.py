@@ -1,6 +1,6 @@
 """Walking, transitions and poses with the torch modules, for `motionrt bench --against torch`.
 
-The same roads with a torch module in the place of a session: all frames of `WalkNet`, with torch's own fused attention.
+The same steps with a torch module in the place of a session: all frames of `WalkNet`, with torch's fused attention.
 """
 
 from __future__ import annotations
@@ -13,8 +13,8 @@ from torch import Tensor
 
 from motionrt.bench.moves import CROWDS, POSE, TRANSITION, Moves, pose_call, transition_call, walk_call, walk_case
 from motionrt.bench.timing import Call
+from motionrt.locomotion.crowd import NextFrame
 from motionrt.locomotion.transitions import Infill
-from motionrt.locomotion.walking import NextFrame
 from motionrt.models.pose_prior import PosePrior as Prior
 from motionrt_export.examples import Array
 from motionrt_training.checkpoint import Network, load_release, network_name

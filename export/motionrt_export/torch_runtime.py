@@ -10,7 +10,7 @@ import torch
 from torch import Tensor
 
 from motionrt import Runtime
-from motionrt.locomotion.players import ModelPlayers
+from motionrt.locomotion.character_models import OnnxCharacterModels
 from motionrt.models.pose_prior import PosePrior
 from motionrt.models.temos import LatentDistribution
 from motionrt.models.text import SentenceFeatures
@@ -32,7 +32,7 @@ class TorchRuntime(Runtime):
         self._sources = sources
 
     @cached_property
-    def players(self) -> ModelPlayers:
+    def character_models(self) -> OnnxCharacterModels:
         """WalkNet, TransNet and the pose prior in torch."""
         return TorchPlayers(self._sources)
 
@@ -42,7 +42,7 @@ class TorchRuntime(Runtime):
         return TorchGenerator(self._sources)
 
 
-class TorchPlayers(ModelPlayers):
+class TorchPlayers(OnnxCharacterModels):
     """The models that move a character."""
 
     def __init__(self, sources: Sources) -> None:

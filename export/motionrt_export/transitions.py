@@ -6,8 +6,8 @@ import numpy as np
 import numpy.typing as npt
 import torch
 
+from motionrt.locomotion.crowd import to_motion
 from motionrt.locomotion.goal_frame import frames_to_goal
-from motionrt.locomotion.walking import to_motion
 from motionrt.motion.features.ccf219 import WIDTH
 from motionrt_export.examples import Array, Feeds
 from motionrt_export.walks import Walks

@@ -9,9 +9,9 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
+from motionrt.locomotion.crowd import FPS, HISTORY, Crowd
 from motionrt.locomotion.goal_frame import frames_to_goal
-from motionrt.locomotion.route import Routes
-from motionrt.locomotion.walking import FPS, HISTORY, Crowd
+from motionrt.locomotion.waypoints import WaypointTargets
 from motionrt.motion.features.ccf219 import ROOT, ROTATIONS, WIDTH
 from motionrt.motion.rotations import project_to_so3
 from motionrt_export.examples import Array, Feeds
@@ -47,7 +47,7 @@ class Walks:
         speeds = rng.uniform(*SPEEDS, len(history))
         metres = steps / FPS * SPEEDS[1] + 2.0
         paths = tuple(winding(rows, metres, rng) for rows in history)
-        crowd, routes = Crowd(_next(graph), history), Routes(paths)
+        crowd, routes = Crowd(_next(graph), history), WaypointTargets(paths)
         frames, goals = [], []
         for _ in range(steps):
             goals.append(routes.goals(crowd.positions))

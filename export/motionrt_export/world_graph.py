@@ -2,7 +2,7 @@
 
     python -m motionrt_export.world_graph --checkpoints models --out build/walknet_world.onnx
 
-What :class:`motionrt.locomotion.walking.Crowd` does around the model is in the graph: the goal may be anywhere, and
+What :class:`motionrt.locomotion.crowd.Crowd` does around the model is in the graph: the goal may be anywhere, and
 the rotations that come out are proper ones. The file is not shipped; it is compared with the runtime when it is made.
 """
 
@@ -17,7 +17,7 @@ import onnxruntime as ort
 import torch
 from torch import Tensor, nn
 
-from motionrt.locomotion.walking import Crowd
+from motionrt.locomotion.crowd import Crowd
 from motionrt_export.motion_graphs import WalkNetGraph
 from motionrt_export.optimise import CHOICES, quantise
 from motionrt_export.sources import Sources
@@ -41,7 +41,7 @@ STEPS = 3  # of the iteration that makes rotations proper: errors of 20 % are go
 
 
 class WalkNetWorldGraph(nn.Module):
-    """One step of `motionrt.locomotion.walking.Crowd`.
+    """One step of `motionrt.locomotion.crowd.Crowd`.
 
     Places are taken from the last frame's before anything else, so nothing is lost far from the origin but what
     float32 itself leaves out there: 0.06 mm at 1 km. Who wants that, too, moves the world.

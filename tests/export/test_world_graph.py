@@ -11,7 +11,7 @@ pytest.importorskip("onnx", reason="onnx is not installed; the export extra brin
 from scipy.spatial.transform import Rotation  # noqa: E402
 from tiny_nets import tiny_walknet  # noqa: E402
 
-from motionrt.locomotion.walking import Crowd  # noqa: E402
+from motionrt.locomotion.crowd import Crowd  # noqa: E402
 from motionrt_export.trace import trace  # noqa: E402
 from motionrt_export.validate import open_session  # noqa: E402
 from motionrt_export.world_graph import SPEC, WalkNetWorldGraph, proper  # noqa: E402

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import motionrt
-from motionrt.locomotion.walking import Crowd
+from motionrt.locomotion.crowd import Crowd
 from motionrt.models.sessions import Sessions
 from motionrt.models.text import load_tokenizer
 from motionrt.models.walknet import WalkModel

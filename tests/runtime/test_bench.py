@@ -13,9 +13,9 @@ from fake_embedder import FakeEmbedder
 
 from motionrt import runtime as runtime_module
 from motionrt.bench import processes, report, rivals, starts, timing, worker
+from motionrt.bench.cases import BENCHMARKS, chosen
 from motionrt.bench.finds import CLIPS, TEXT, answer_case, motion_case, search_case
 from motionrt.bench.first_answer import peak_mb
-from motionrt.bench.roads import ROADS, chosen
 from motionrt.bench.setting import Setting
 from motionrt.bench.timing import Contest, Timing, Turns, timed
 from motionrt.bench.workload import Workload
@@ -101,7 +101,7 @@ def test_times_are_those_of_one_unit() -> None:
 
 def test_every_case_does_what_its_name_says(work: Workload) -> None:
     setting = Setting(None, 1, work)
-    parts = [road.cases(setting) for road in chosen(RETRIEVAL).values()]
+    parts = [benchmark.cases(setting) for benchmark in chosen(RETRIEVAL).values()]
     cases = {name: case for part in parts for name, case in part.items()}
     assert list(cases) == CASES
     assert cases[TEXT].call().shape == (1, 256)
@@ -122,8 +122,8 @@ def test_vectors_have_unit_length_and_are_the_same_every_time(work: Workload) ->
 
 def test_files_are_written_read_and_indexed_in_a_folder_that_is_removed(work: Workload) -> None:
     setting = Setting(None, 1, work)
-    load, save = (case.call for case in ROADS["files"].cases(setting).values())
-    gallery = next(iter(ROADS["gallery"].cases(setting).values()))
+    load, save = (case.call for case in BENCHMARKS["files"].cases(setting).values())
+    gallery = next(iter(BENCHMARKS["gallery"].cases(setting).values()))
     assert load().frames == 300
     assert save().is_file()
     assert len(gallery.call().gallery) == gallery.units == 8
@@ -175,7 +175,7 @@ def test_a_rival_whose_packages_are_missing_says_what_to_install(
         rivals.open_rival("double", work, 1, None)
 
 
-def test_roads_on_request_are_gone_only_when_they_are_named() -> None:
+def test_benchmarks_on_request_are_gone_only_when_they_are_named() -> None:
     assert "approximate" not in chosen(None)
     assert list(chosen(["approximate"])) == ["approximate"]
 

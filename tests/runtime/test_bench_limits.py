@@ -1,4 +1,4 @@
-"""The machine's peaks, what roads multiply and read, and how both are set against each other."""
+"""The machine's peaks, what benchmarks multiply and read, and how both are set against each other."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from motionrt.bench.limits import against_times, limit_row, limits, search_row
 from motionrt.bench.nodes import Work, read_work, work_of
 from motionrt.bench.onnx_bytes import FLOAT, INT32, UINT8, product_model
 from motionrt.bench.peaks import SHAPES, machine_peaks
-from motionrt.bench.profiling import RoadWork, profile, road_work
+from motionrt.bench.profiling import BenchmarkWork, benchmark_work, profile
 from motionrt.errors import InvalidInputError
 from motionrt.models.sessions import quiet_options
 
@@ -104,8 +104,8 @@ def test_the_profile_of_a_product_counts_what_it_multiplies(tmp_path: Path) -> N
     assert found.weight_bytes == 40 * 20 * 4
 
 
-def test_a_road_is_held_against_the_slower_of_sums_and_reads() -> None:
-    arithmetic = RoadWork("case", 2, 1.0, {"m": Work({}, 1, 50e6, 200e6, 6e6, 0.004)})
+def test_a_benchmark_is_held_against_the_slower_of_sums_and_reads() -> None:
+    arithmetic = BenchmarkWork("case", 2, 1.0, {"m": Work({}, 1, 50e6, 200e6, 6e6, 0.004)})
     row = limit_row(arithmetic, PEAKS)
     assert (row["sums_ms"], row["reads_ms"]) == (pytest.approx(1.0), pytest.approx(0.05))  # of one unit of two
     assert row["limit_ms"] == row["sums_ms"]
@@ -113,8 +113,8 @@ def test_a_road_is_held_against_the_slower_of_sums_and_reads() -> None:
 
 
 def test_weights_of_many_small_calls_come_from_the_cache_and_those_of_one_large_call_from_memory() -> None:
-    small = limit_row(RoadWork("case", 1, 1.0, {"m": Work({}, 10, 0, 0, 60e6)}), PEAKS)
-    large = limit_row(RoadWork("case", 1, 1.0, {"m": Work({}, 1, 0, 0, 60e6)}), PEAKS)
+    small = limit_row(BenchmarkWork("case", 1, 1.0, {"m": Work({}, 10, 0, 0, 60e6)}), PEAKS)
+    large = limit_row(BenchmarkWork("case", 1, 1.0, {"m": Work({}, 1, 0, 0, 60e6)}), PEAKS)
     assert (small["reads_ms"], large["reads_ms"]) == (pytest.approx(1.0), pytest.approx(3.0))
 
 
@@ -130,8 +130,8 @@ def test_limits_are_told_of_what_was_timed_only() -> None:
     assert found == [{"case": "a", "limit_ms": 2.0, "p50_ms": 5.0, "times_limit": 2.5}]
 
 
-def test_a_road_is_profiled_model_by_model() -> None:
-    found = road_work("text", str(TINY), 1, seconds=0.01)
+def test_a_benchmark_is_profiled_model_by_model() -> None:
+    found = benchmark_work("text", str(TINY), 1, seconds=0.01)
     assert found.case == "text encoding"
     assert {name for name, work in found.models.items() if work.runs == 1} >= {"tmr_text"}
     assert found.all.weight_bytes > 0
@@ -140,7 +140,7 @@ def test_a_road_is_profiled_model_by_model() -> None:
 
 
 def test_the_denoiser_of_a_motion_runs_ten_times() -> None:
-    assert road_work("generate", str(TINY_GENERATORS), 1, seconds=0.01).models["latent_denoiser"].runs == 10
+    assert benchmark_work("generate", str(TINY_GENERATORS), 1, seconds=0.01).models["latent_denoiser"].runs == 10
 
 
 def test_a_profile_is_json_and_names_functions() -> None:
@@ -151,13 +151,15 @@ def test_a_profile_is_json_and_names_functions() -> None:
     assert found["operators_ms"]
 
 
-@pytest.mark.parametrize(("road", "why"), [("walk", "walknet"), ("cold", "many things"), ("swim", "no road is called")])
-def test_roads_that_cannot_be_profiled_say_why(road: str, why: str) -> None:
+@pytest.mark.parametrize(
+    ("benchmark", "why"), [("walk", "walknet"), ("cold", "many things"), ("swim", "no benchmark is called")]
+)
+def test_benchmarks_that_cannot_be_profiled_say_why(benchmark: str, why: str) -> None:
     with pytest.raises(InvalidInputError, match=why):
-        road_work(road, str(TINY), 1)
+        benchmark_work(benchmark, str(TINY), 1)
 
 
 def test_limits_of_the_tiny_models() -> None:
     found = limits(str(TINY), 1, only=["text", "motion", "search", "walk"], sizes=(1000,), seconds=0.005)
-    assert [row["road"] for row in found["roads"]] == ["text", "motion", "search"]
-    assert all(row["limit_ms"] > 0 for row in found["roads"])
+    assert [row["benchmark"] for row in found["benchmarks"]] == ["text", "motion", "search"]
+    assert all(row["limit_ms"] > 0 for row in found["benchmarks"])

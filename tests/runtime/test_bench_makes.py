@@ -8,8 +8,8 @@ from tiny_models import TINY, TINY_GENERATORS
 
 from motionrt import Motion, Runtime
 from motionrt.bench import worker
+from motionrt.bench.cases import BENCHMARKS
 from motionrt.bench.makes import BODY_PARTS, COMPOSE, DECODE, FRAMES, compose_call, generate_calls, generate_case
-from motionrt.bench.roads import ROADS
 from motionrt.bench.setting import Setting
 from motionrt.bench.timing import Turns
 from motionrt.bench.workload import TEXTS, Workload
@@ -33,7 +33,7 @@ def test_texts_become_the_motions_that_the_runtime_makes(setting: Setting) -> No
 
 
 def test_the_decoder_alone_gives_raw_features(setting: Setting) -> None:
-    found = np.asarray(ROADS["decode"].cases(setting)[DECODE].call())
+    found = np.asarray(BENCHMARKS["decode"].cases(setting)[DECODE].call())
     assert found.shape == (1, FRAMES, 135)
     assert np.isfinite(found).all()
 
@@ -44,10 +44,10 @@ def test_a_composition_is_as_long_as_its_layers(setting: Setting) -> None:
     assert made.frames == FRAMES
 
 
-def test_every_road_has_its_cases(setting: Setting) -> None:
-    cases = [list(ROADS[name].cases(setting)) for name in ("generate", "decode", "compose", "parts")]
+def test_every_benchmark_has_its_cases(setting: Setting) -> None:
+    cases = [list(BENCHMARKS[name].cases(setting)) for name in ("generate", "decode", "compose", "parts")]
     assert cases == [CASES, [DECODE], [COMPOSE], [BODY_PARTS]]
-    assert not setting.missing(ROADS["generate"].models)
+    assert not setting.missing(BENCHMARKS["generate"].models)
 
 
 def test_without_models_motions_are_composed_all_the_same() -> None:

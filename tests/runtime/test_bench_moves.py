@@ -6,10 +6,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from fake_players import FakePlayers, towards_goal
+from fake_character_models import FakeCharacterModels, towards_goal
 from tiny_models import edited
 
-from motionrt.bench import report, roads, tables, worker
+from motionrt.bench import cases, report, tables, worker
+from motionrt.bench.cases import BENCHMARKS, Benchmark, chosen
 from motionrt.bench.moves import (
     CROWDS,
     PERFORM,
@@ -21,7 +22,6 @@ from motionrt.bench.moves import (
     walk_call,
     walk_case,
 )
-from motionrt.bench.roads import ROADS, Road, chosen
 from motionrt.bench.setting import Setting
 from motionrt.bench.timing import Turns
 from motionrt.bench.workload import Workload
@@ -51,7 +51,7 @@ def stiff(latents: np.ndarray) -> np.ndarray:
     return np.tile(np.eye(3, dtype=np.float32), (len(latents), 24, 1, 1))
 
 
-class Doubles(FakePlayers):
+class Doubles(FakeCharacterModels):
     """Stand-ins for all models, as the benchmark asks for them."""
 
     def __init__(self) -> None:
@@ -61,7 +61,7 @@ class Doubles(FakePlayers):
 
 def double_setting(work: Workload, threads: int) -> Setting:
     setting = Setting(None, threads, work)
-    setting.runtime.players = Doubles()
+    setting.runtime.character_models = Doubles()
     return setting
 
 
@@ -95,42 +95,42 @@ def test_every_pose_is_solved_even_where_it_is_out_of_reach(moves: Moves) -> Non
     assert [set(solution.errors_cm) for solution in found] == [set(keypoints) for keypoints in moves.poses]
 
 
-def test_every_road_has_its_cases(work: Workload) -> None:
+def test_every_benchmark_has_its_cases(work: Workload) -> None:
     setting = double_setting(work, threads=1)
-    assert list(ROADS["walk"].cases(setting))[:2] == ["walk, 1 character", "walk, 2 characters"]
-    assert [case.units for case in ROADS["walk"].cases(setting).values()] == list(CROWDS)
-    assert list(ROADS["transition"].cases(setting)) == [TRANSITION]
-    assert list(ROADS["pose"].cases(setting)) == [POSE]
+    assert list(BENCHMARKS["walk"].cases(setting))[:2] == ["walk, 1 character", "walk, 2 characters"]
+    assert [case.units for case in BENCHMARKS["walk"].cases(setting).values()] == list(CROWDS)
+    assert list(BENCHMARKS["transition"].cases(setting)) == [TRANSITION]
+    assert list(BENCHMARKS["pose"].cases(setting)) == [POSE]
 
 
 def test_the_performance_is_timed_by_the_frame(work: Workload) -> None:
-    case = ROADS["perform"].cases(double_setting(work, threads=1))[PERFORM]
+    case = BENCHMARKS["perform"].cases(double_setting(work, threads=1))[PERFORM]
     assert case.slow
     assert case.units == case.call() > 300
 
 
-def test_roads_without_models_are_left_out(tmp_path: Path) -> None:
+def test_benchmarks_without_models_are_left_out(tmp_path: Path) -> None:
     manifest = edited(tmp_path, lambda content: [content["models"].pop(name, None) for name in ("walknet", "transnet")])
     found = worker.measure(str(manifest), 1, turns=ONCE, only=["walk", "transition", "search"], sizes=(100, 200))
     assert found["left_out"] == {"walk": "no model walknet", "transition": "no model transnet"}
     assert len(found["cases"]) == 2
 
 
-def test_a_road_that_the_models_cannot_walk_is_left_out(monkeypatch: pytest.MonkeyPatch) -> None:
-    def stuck(_: Setting) -> dict[str, roads.Case]:
+def test_a_benchmark_that_the_models_cannot_walk_is_left_out(monkeypatch: pytest.MonkeyPatch) -> None:
+    def stuck(_: Setting) -> dict[str, cases.Case]:
         raise WalkError("the character stays where it is")
 
-    monkeypatch.setattr(roads, "ROADS", {"perform": Road((), stuck)})
+    monkeypatch.setattr(cases, "BENCHMARKS", {"perform": Benchmark((), stuck)})
     found = worker.measure(None, 1, turns=ONCE)
     assert found["left_out"] == {"perform": "the character stays where it is"}
     assert found["cases"] == []
 
 
-def test_an_unknown_road_is_refused_with_those_there_are(capsys: pytest.CaptureFixture[str]) -> None:
-    with pytest.raises(InvalidInputError, match=r"no road is called swim; choose from: text, motion"):
+def test_an_unknown_benchmark_is_refused_with_those_there_are(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(InvalidInputError, match=r"no benchmark is called swim; choose from: text, motion"):
         chosen(["walk", "swim"])
     assert main(["bench", "--only", "swim"]) == 1
-    assert "no road is called swim" in capsys.readouterr().err
+    assert "no benchmark is called swim" in capsys.readouterr().err
 
 
 def test_how_many_characters_two_cores_animate() -> None:

@@ -15,17 +15,17 @@ import yaml
 from tiny_models import TINY, TINY_GENERATORS, copy_tiny
 
 from motionrt.bench import footprint, markdown, plot, tables, worker
+from motionrt.bench.cases import BENCHMARKS
 from motionrt.bench.finds import TEXT, answer_case, motion_case, search_case
 from motionrt.bench.graphs import called_with, graph_feeds
 from motionrt.bench.moves import walk_case
-from motionrt.bench.roads import ROADS
 from motionrt.bench.timing import Turns
 from motionrt.cli import main
 from motionrt.errors import InvalidInputError, MissingDependencyError
 from motionrt.models import find_manifest, load_manifest
 
 WITHOUT_MODELS = {"walk", "transition", "pose", "perform"}  # of which there are no tiny ones
-BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
+SCRIPTS = Path(__file__).parents[2] / "benchmarks"
 
 
 def case(name: str, p50: float, **against: float) -> dict[str, Any]:
@@ -124,7 +124,7 @@ def test_the_readme_table_has_the_chosen_rows() -> None:
 def test_all_tables_have_cells_under_every_title() -> None:
     limit = {"case": TEXT, "macs_int8_m": 234.2, "macs_fp32_m": 1.9, "weights_mb": 16.8, "sums_ms": 1.17}
     limit |= {"reads_ms": 0.26, "p50_ms": 2.0, "times_limit": 1.7}
-    run = {**FOUND["runs"][0], "limits": {"peaks": {"read_gbs": {"cache": 60.0}}, "roads": [limit]}}
+    run = {**FOUND["runs"][0], "limits": {"peaks": {"read_gbs": {"cache": 60.0}}, "benchmarks": [limit]}}
     found = markdown.performance_tables({**FOUND, "runs": [run]})
     for table in (part.splitlines() for part in found.split("\n\n") if part.startswith("|")):
         assert {line.count("|") for line in table} == {table[0].count("|")}
@@ -200,11 +200,11 @@ def tiny(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return manifest
 
 
-def test_every_road_with_models_runs(tiny: Path) -> None:
+def test_every_benchmark_with_models_runs(tiny: Path) -> None:
     found = worker.measure(str(tiny), 2, turns=Turns(1, 1, 0), sizes=(1_000, 2_000))
     assert set(found["left_out"]) == WITHOUT_MODELS
     assert set(found["models"]) == set(load_manifest(tiny).models)
-    assert len(found["cases"]) > len(ROADS) - len(WITHOUT_MODELS)
+    assert len(found["cases"]) > len(BENCHMARKS) - len(WITHOUT_MODELS)
     assert all(row["p50_ms"] > 0 and row["p95_ms"] > 0 for row in found["cases"])
 
 
@@ -218,7 +218,7 @@ def test_the_command_measures_prints_and_draws(tiny: Path, tmp_path: Path, capsy
     assert {"threads", "cases", "left_out", "cold_start", "peak_mb", "limits"} <= set(run)
     assert run["cold_start"]["seconds"] > run["cold_start"]["import_s"] > 0
     assert set(run["peak_mb"]) == {"import", "text"}
-    assert {row["road"] for row in run["limits"]["roads"]} == {"text", "search"}
+    assert {row["benchmark"] for row in run["limits"]["benchmarks"]} == {"text", "search"}
     assert set(found["models"]["tmr_text"]) == {"p50_ms", "p95_ms", "threads", "call"}
     assert not picture or (tmp_path / "bench.png").stat().st_size > 10_000
     assert "| embed a text |" in markdown.readme_table(found)
@@ -233,7 +233,7 @@ def test_the_command_prints_a_table_or_markdown(tiny: Path, capsys: pytest.Captu
     assert "threads: 1" in capsys.readouterr().out
 
 
-def test_the_command_profiles_a_road(tiny: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_command_profiles_a_benchmark(tiny: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["bench", "--profile", "text", "--threads", "1", "--models", str(tiny)]) == 0
     found = capsys.readouterr().out
     assert "tmr_text" in found
@@ -244,7 +244,7 @@ def test_the_command_profiles_a_road(tiny: Path, capsys: pytest.CaptureFixture[s
 
 def test_a_release_is_published_from_its_figures(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     pytest.importorskip("matplotlib", reason="matplotlib is not installed")
-    monkeypatch.syspath_prepend(str(BENCHMARKS))
+    monkeypatch.syspath_prepend(str(SCRIPTS))
     monkeypatch.delitem(sys.modules, "install", raising=False)
     everything = importlib.import_module("all")
     figures, readme, document = (tmp_path / name for name in ("bench.json", "README.md", "performance.md"))

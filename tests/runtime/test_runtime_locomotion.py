@@ -9,13 +9,13 @@ from pathlib import Path as FilePath
 
 import numpy as np
 import pytest
-from fake_players import FPS, FakePlayers
+from fake_character_models import FPS, FakeCharacterModels
 from motions import random_motion, walking
 
 from motionrt import Act, Follow, Goal, Path, Runtime, Scene, WalkTo, load_motion
 from motionrt.errors import FormatError, InvalidInputError, ModelFileError, MotionFileNotFoundError, PathError
 from motionrt.locomotion.bearings import facing_of
-from motionrt.locomotion.poses import stride_of
+from motionrt.locomotion.starting_poses import stride_of
 from motionrt.models import find_manifest, load_manifest
 
 ROOM = Scene.from_polygons([[[-3, -1], [3, -1], [3, 9], [-3, 9]]], [[[-1.5, 3], [1, 3], [1, 5], [-1.5, 5]]])
@@ -24,14 +24,16 @@ ROOM = Scene.from_polygons([[[-3, -1], [3, -1], [3, 9], [-3, 9]]], [[[-1.5, 3], 
 @pytest.fixture
 def runtime() -> Runtime:
     made = Runtime()
-    made.players = FakePlayers()  # type: ignore[misc]  # fills the cached property
+    made.character_models = FakeCharacterModels()  # type: ignore[misc]  # fills the cached property
     return made
 
 
 def test_a_walk_stands_at_both_ends_and_measures_itself(runtime: Runtime) -> None:
     walk = runtime.walk((3, 8), foot_lock=False)
     np.testing.assert_allclose(walk.motion.root[[0, -1]][:, [0, 2]], [[0, 0], [3, 8]], atol=1e-3)
-    np.testing.assert_allclose(walk.motion.rotations[-1, 1:], FakePlayers().standing.rotations[0, 1:], atol=1e-5)
+    np.testing.assert_allclose(
+        walk.motion.rotations[-1, 1:], FakeCharacterModels().standing.rotations[0, 1:], atol=1e-5
+    )
     assert walk.measures.goal_distance_m == pytest.approx(0, abs=1e-3)
     assert walk.measures.waypoints_reached == 1.0
     assert walk.measures.path_deviation_m == pytest.approx(0, abs=1e-3)
@@ -178,7 +180,7 @@ import motionrt
 print(sorted(name for name in sys.modules if name.split(".")[0] in ("numpy", "scipy", "onnxruntime", "yaml")))
 from motionrt.runtime import Runtime
 print([name for name in sys.modules if name.startswith("motionrt.locomotion.scene")])
-from motionrt.locomotion import poses, players, walks, streaming, crowds, performing, script
+from motionrt.locomotion import starting_poses, character_models, walk, streaming, crowd_start, performing, script
 print([name for name in sys.modules if name.split(".")[0] in ("scipy", "onnxruntime", "yaml", "trimesh", "PIL")])
 """
 
@@ -245,7 +247,7 @@ def test_shipped_models_move_a_crowd(shipped: Runtime) -> None:
 def test_shipped_models_meet_keypoints_and_get_there(shipped: Runtime) -> None:
     found = shipped.pose({"right_hand": (0.3, 1.2, 0.5), "left_foot": (0.1, 0, 0.1), "right_foot": (-0.1, 0, 0.1)})
     assert found.mean_error_cm < 2
-    between = shipped.transition(shipped.players.standing, found.motion, held=True)
+    between = shipped.transition(shipped.character_models.standing, found.motion, held=True)
     np.testing.assert_allclose(between.positions()[-1], found.motion.positions()[0], atol=0.02)
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from fake_players import FakePlayers
+from fake_character_models import FakeCharacterModels
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -171,5 +171,5 @@ def test_a_script_of_a_map_names_its_file(tmp_path: Path) -> None:
 
 def test_what_was_clicked_can_be_performed() -> None:
     draft = clicks((drafts.WALK, (0.0, 0.0, 2.0)), (drafts.SIT, (0.0, 0.42, 4.0)), (drafts.WALK, (2.0, 0.0, 2.0)))
-    performance = Performer(FakePlayers(), draft.start).perform(draft.steps)
+    performance = Performer(FakeCharacterModels(), draft.start).perform(draft.steps)
     assert [s.name for s in performance.segments if s.kind == "hold" and s.keypoints] == ["sit"]

@@ -1,11 +1,11 @@
-"""A runtime without models: a gallery of gaits, generation that answers with a gait, players that walk straight."""
+"""A runtime without models: a gallery of gaits, generation that answers with a gait, characters that walk straight."""
 
 from __future__ import annotations
 
 from functools import cached_property
 from typing import Any
 
-from fake_players import FakePlayers
+from fake_character_models import FakeCharacterModels
 from motions import standing, walking
 
 from motionrt.errors import InvalidInputError
@@ -24,8 +24,8 @@ class SmallGallery:
 
 class StudioRuntime(Runtime):
     @cached_property
-    def players(self) -> Any:  # type: ignore[override]
-        return FakePlayers()
+    def character_models(self) -> Any:  # type: ignore[override]
+        return FakeCharacterModels()
 
     def gallery(self, gallery: object = None) -> Any:
         return SmallGallery()

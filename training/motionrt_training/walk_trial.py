@@ -6,8 +6,8 @@ import numpy as np
 import torch
 from numpy.typing import NDArray
 
-from motionrt.locomotion.route import Routes
-from motionrt.locomotion.walking import Crowd, to_motion
+from motionrt.locomotion.crowd import Crowd, to_motion
+from motionrt.locomotion.waypoints import WaypointTargets
 from motionrt.metrics.locomotion import foot_skate, path_distances
 from motionrt_training.networks.walknet import FRAMES, WalkNet
 from motionrt_training.walk_pool import WalkPool
@@ -53,7 +53,7 @@ class Trial:
         }
 
     @torch.no_grad()
-    def walk(self, model: WalkNet, steps: int = STEPS) -> tuple[list[NDArray[np.float64]], Routes]:
+    def walk(self, model: WalkNet, steps: int = STEPS) -> tuple[list[NDArray[np.float64]], WaypointTargets]:
         """Each character's walked frames (steps, 219), and the routes as they stand at the end."""
 
         def predict(frames: NDArray[np.float32], speed: NDArray[np.float32]) -> NDArray[np.float32]:
@@ -61,7 +61,7 @@ class Trial:
             out = model(torch.from_numpy(frames).to(device), torch.from_numpy(speed.copy()).to(device))
             return out[:, 0].float().cpu().numpy()
 
-        crowd, routes = Crowd(predict, self.history), Routes(self.paths)
+        crowd, routes = Crowd(predict, self.history), WaypointTargets(self.paths)
         made = [crowd.step(routes.goals(crowd.positions), np.array(SPEEDS)) for _ in range(steps)]
         return list(np.stack(made, axis=1)), routes
 

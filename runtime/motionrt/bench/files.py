@@ -6,7 +6,7 @@ from pathlib import Path
 
 from motionrt.bench.timing import Call
 from motionrt.formats import load_motion
-from motionrt.locomotion.poses import plain_stride
+from motionrt.locomotion.starting_poses import plain_stride
 from motionrt.runtime import Runtime
 
 SECONDS, CLIPS = 10.0, 8

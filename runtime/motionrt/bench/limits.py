@@ -1,4 +1,4 @@
-"""How far every road is from what the machine can do: its multiply-adds and weights against the measured peaks."""
+"""How far every benchmark is from what the machine can do: its multiply-adds and weights against the measured peaks."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from contextlib import closing
 from typing import Any
 
 from motionrt.bench.answering import answered
+from motionrt.bench.cases import chosen
 from motionrt.bench.finds import search_case
 from motionrt.bench.nodes import Work
 from motionrt.bench.peaks import machine_peaks
-from motionrt.bench.profiling import RoadWork, road_work
-from motionrt.bench.roads import chosen
+from motionrt.bench.profiling import BenchmarkWork, benchmark_work
 from motionrt.bench.setting import Setting
 from motionrt.bench.workload import SIZES, Workload
 from motionrt.models.tmr import DIMENSION
@@ -30,33 +30,37 @@ def limits(
     sizes: Sequence[int] = SIZES,
     seconds: float = 1.0,
 ) -> dict[str, Any]:
-    """The machine's peaks; for every road that multiplies in a model its multiply-adds (10^6), the bytes of its
+    """The machine's peaks; for every benchmark that multiplies in a model its multiply-adds (10^6), the bytes of its
     weights (10^6) and the least milliseconds that both could take, of one unit of the first case.
 
     Weights are read once for every call of a model: from memory where one call reads more than ``CACHED_MB``, else
-    from the cache. A road cannot be faster than the slower of the two, even if they overlap completely.
+    from the cache. A benchmark cannot be faster than the slower of the two, even if they overlap completely.
     """
     peaks = machine_peaks(threads, 0.3 * seconds)
     with closing(Setting(models, threads, Workload.standard((10_000,)))) as setting:
-        roads = [name for name, road in chosen(only).items() if road.models and not setting.missing(road.models)]
+        benchmarks = [
+            name
+            for name, benchmark in chosen(only).items()
+            if benchmark.models and not setting.missing(benchmark.models)
+        ]
     rows = [
-        limit_row(road_work(name, models, threads, variant, seconds), peaks, name)
-        for name in roads
+        limit_row(benchmark_work(name, models, threads, variant, seconds), peaks, name)
+        for name in benchmarks
         if name not in WITHOUT
     ]
     searches = [search_row(size, peaks) for size in sizes] if "search" in chosen(only) else []
-    return {"peaks": peaks, "roads": rows + searches}
+    return {"peaks": peaks, "benchmarks": rows + searches}
 
 
-def limit_row(work: RoadWork, peaks: Mapping[str, Mapping[str, float]], road: str = "") -> Row:
-    """One road against the peaks; times are those of one unit of its case."""
+def limit_row(work: BenchmarkWork, peaks: Mapping[str, Mapping[str, float]], benchmark: str = "") -> Row:
+    """One benchmark against the peaks; times are those of one unit of its case."""
     total = work.all
     sums_s = total.macs_fp32 / 1e9 / max(peaks["fp32_gmacs"].values())
     sums_s += total.macs_int8 / 1e9 / max(peaks["int8_gmacs"].values())
     reads_s = sum(_read_s(each, peaks["read_gbs"]) for each in work.models.values())
     scale = 1000 / work.units
     return {
-        "road": road,
+        "benchmark": benchmark,
         "case": work.case,
         "macs_fp32_m": total.macs_fp32 / 1e6 / work.units,
         "macs_int8_m": total.macs_int8 / 1e6 / work.units,
@@ -72,7 +76,7 @@ def search_row(size: int, peaks: Mapping[str, Mapping[str, float]]) -> Row:
     """A search of so many vectors, as if a byte for each of their numbers were enough to find the nearest."""
     numbers = float(size * DIMENSION)
     found = Work(macs_int8=numbers, weight_bytes=numbers, runs=1)
-    return limit_row(RoadWork(search_case(size), 1, 0.0, {"search": found}), peaks, "search")
+    return limit_row(BenchmarkWork(search_case(size), 1, 0.0, {"search": found}), peaks, "search")
 
 
 def _read_s(work: Work, read_gbs: Mapping[str, float]) -> float:

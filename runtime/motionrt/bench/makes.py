@@ -8,7 +8,7 @@ import numpy as np
 
 from motionrt.bench.timing import Call
 from motionrt.bench.workload import TEXTS
-from motionrt.locomotion.poses import plain_stride
+from motionrt.locomotion.starting_poses import plain_stride
 from motionrt.models.temos import LATENT
 from motionrt.motion.features import sinc135
 from motionrt.runtime import Runtime

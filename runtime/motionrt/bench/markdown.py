@@ -55,7 +55,7 @@ def performance_tables(found: Found) -> str:
     parts = [f"{_machine(found)}; {versions}."]
     for run in found["runs"]:
         parts.append(_table(tables.header(run["threads"], rivals), tables.rows(run, rivals)))
-        parts += [f"Left out: {road} ({why})." for road, why in run["left_out"].items()]
+        parts += [f"Left out: {benchmark} ({why})." for benchmark, why in run["left_out"].items()]
     for run in found["runs"]:
         parts += _limit_parts(run)
     if found["models"]:

@@ -1,4 +1,4 @@
-"""A fresh process that goes some roads once; prints the most memory that it has held."""
+"""A fresh process that runs some benchmarks once; prints its peak memory."""
 
 from __future__ import annotations
 
@@ -26,20 +26,20 @@ GROUPS = {
 def peaks(
     models: str | None, threads: int, variant: str | None, left_out: Sequence[str], only: Sequence[str] | None
 ) -> dict[str, float]:
-    """MB by group of roads, each in a process of its own; groups with a road that is left out are, too."""
+    """MB by group of benchmarks, each in a process of its own; groups with a benchmark that is left out are, too."""
     found = {}
-    for group, roads in GROUPS.items():
-        if any(road in left_out or (only is not None and road not in only) for road in roads):
+    for group, benchmarks in GROUPS.items():
+        if any(benchmark in left_out or (only is not None and benchmark not in only) for benchmark in benchmarks):
             continue
-        asked = {"models": models, "threads": threads, "variant": variant, "roads": roads}
+        asked = {"models": models, "threads": threads, "variant": variant, "benchmarks": benchmarks}
         peak = run_module("motionrt.bench.memory", asked)["peak_mb"]
         if peak is not None:
             found[group] = peak
     return found
 
 
-def go_once(models: str | None, threads: int, variant: str | None, roads: Sequence[str]) -> None:
-    """Every case of the roads, once."""
+def run_once(models: str | None, threads: int, variant: str | None, benchmarks: Sequence[str]) -> None:
+    """Every case of the benchmarks, once."""
     from contextlib import closing
 
     from motionrt.bench.setting import Setting
@@ -47,16 +47,16 @@ def go_once(models: str | None, threads: int, variant: str | None, roads: Sequen
     from motionrt.bench.workload import Workload
 
     with closing(Setting(models, threads, Workload.standard((10_000,)), variant=variant)) as setting:
-        for case in prepared(setting, roads)[0].values():
+        for case in prepared(setting, benchmarks)[0].values():
             case.call()
 
 
 def main() -> int:
-    """``python -m motionrt.bench.memory '{"models": null, "threads": 1, "variant": null, "roads": ["text"]}'``."""
+    """``python -m motionrt.bench.memory '{"models": null, "threads": 1, "variant": null, "benchmarks": ["text"]}'``."""
     arguments: dict[str, Any] = json.loads(sys.argv[1])
     try:
-        if arguments["roads"]:
-            go_once(**arguments)
+        if arguments["benchmarks"]:
+            run_once(**arguments)
         else:
             import motionrt.runtime  # noqa: F401
     except MotionRTError as error:

@@ -10,11 +10,11 @@ import numpy as np
 import numpy.typing as npt
 
 from motionrt.bench.timing import Call
+from motionrt.locomotion.crowd import Crowd, NextFrame
 from motionrt.locomotion.goal_frame import Goal
-from motionrt.locomotion.poses import plain_stride
 from motionrt.locomotion.posing.body import Prior
+from motionrt.locomotion.starting_poses import plain_stride
 from motionrt.locomotion.transitions import Infill, transition
-from motionrt.locomotion.walking import Crowd, NextFrame
 from motionrt.models.walknet import HISTORY
 from motionrt.motion import Motion
 from motionrt.motion.features import ccf219

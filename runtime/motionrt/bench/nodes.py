@@ -1,4 +1,4 @@
-"""onnxruntime's profile of a road: which operators of which models take the time, and what they multiply and read."""
+"""onnxruntime's profile of a benchmark: which operators of which models take the time, multiply and read how much."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ class Work:
         )
 
     def of_one(self, calls: int) -> Work:
-        """The share of one call of the road."""
+        """The share of one call of the benchmark."""
         return Work(
             {name: seconds / calls for name, seconds in self.seconds.items()},
             self.runs / calls,

@@ -1,4 +1,4 @@
-"""Where a road's time goes: its models and their operators by onnxruntime's profiler, its Python by cProfile."""
+"""Where a benchmark's time goes: its models and their operators by onnxruntime's profiler, its Python by cProfile."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from pathlib import Path
 from typing import Any
 
 from motionrt.bench.answering import answered
+from motionrt.bench.cases import COLD, chosen
 from motionrt.bench.nodes import Work, read_work
-from motionrt.bench.roads import COLD, chosen
 from motionrt.bench.setting import Setting
 from motionrt.bench.timing import Call, Case
 from motionrt.bench.workload import Workload
@@ -27,8 +27,8 @@ MOST_CALLS, LISTED = 50, 12
 
 
 @dataclass(frozen=True)
-class RoadWork:
-    """What one call of a road's first case does in its models.
+class BenchmarkWork:
+    """What one call of a benchmark's first case does in its models.
 
     Attributes:
         case: its name.
@@ -48,37 +48,37 @@ class RoadWork:
         return sum(self.models.values(), Work())
 
 
-def road_work(
-    road: str, models: str | None, threads: int, variant: str | None = None, seconds: float = 1.0
-) -> RoadWork:
-    """Go a road for so many seconds, or 50 times, with onnxruntime's profiler on.
+def benchmark_work(
+    benchmark: str, models: str | None, threads: int, variant: str | None = None, seconds: float = 1.0
+) -> BenchmarkWork:
+    """Run a benchmark for so many seconds, or 50 times, with onnxruntime's profiler on.
 
     Raises:
-        InvalidInputError: no road of that name, or one without a case that can be called.
+        InvalidInputError: no benchmark of that name, or one without a case that can be called.
     """
-    needed = chosen([road])[road].models
+    needed = chosen([benchmark])[benchmark].models
     with tempfile.TemporaryDirectory(prefix="motionrt-profile-") as folder:
         options = quiet_options(threads)
         options.enable_profiling = True
         options.profile_file_prefix = str(Path(folder) / "profile")
         setting = Setting(models, threads, Workload.standard(SIZES), variant=variant, session_options=options)
         with closing(setting):
-            _check(setting, road)
+            _check(setting, benchmark)
             sessions = {name: setting.sessions(name).session(name, variant) for name in needed}  # one after the other
-            label, case = _first(setting, road)
+            label, case = _first(setting, benchmark)
             calls, wall = _repeat(case.call, seconds)
             profiles = {name: Path(session.end_profiling()) for name, session in sessions.items()}
             found = {name: read_work(path).of_one(calls) for name, path in profiles.items()}
-    return RoadWork(label, case.units, wall / calls, found)
+    return BenchmarkWork(label, case.units, wall / calls, found)
 
 
-def python_work(road: str, models: str | None, threads: int, variant: str | None = None) -> list[dict[str, Any]]:
-    """The functions that take most of a call of a road, by their own time: ``function``, ``calls`` and ``ms`` of one
-    call of the road.
+def python_work(benchmark: str, models: str | None, threads: int, variant: str | None = None) -> list[dict[str, Any]]:
+    """The functions that take most of a call of a benchmark, by their own time: ``function``, and ``calls`` and ``ms``
+    of one call.
     """
     with closing(Setting(models, threads, Workload.standard(SIZES), variant=variant)) as setting:
-        _check(setting, road)
-        call = _first(setting, road)[1].call
+        _check(setting, benchmark)
+        call = _first(setting, benchmark)[1].call
         call()
         profiler = cProfile.Profile()
         profiler.enable()
@@ -92,16 +92,16 @@ def python_work(road: str, models: str | None, threads: int, variant: str | None
     ]
 
 
-def _check(setting: Setting, road: str) -> None:
-    if missing := setting.missing(chosen([road])[road].models):
-        raise InvalidInputError(f"the road {road} needs models that are not there: {', '.join(missing)}")
-    if road in (COLD, "models"):
-        raise InvalidInputError(f"the road {road} cannot be profiled: it is many things; choose another one")
+def _check(setting: Setting, benchmark: str) -> None:
+    if missing := setting.missing(chosen([benchmark])[benchmark].models):
+        raise InvalidInputError(f"the benchmark {benchmark} needs models that are not there: {', '.join(missing)}")
+    if benchmark in (COLD, "models"):
+        raise InvalidInputError(f"the benchmark {benchmark} cannot be profiled: it is many things; choose another one")
 
 
-def _first(setting: Setting, road: str) -> tuple[str, Case]:
-    """The first case of a road."""
-    return next(iter(chosen([road])[road].cases(setting).items()))
+def _first(setting: Setting, benchmark: str) -> tuple[str, Case]:
+    """The first case of a benchmark."""
+    return next(iter(chosen([benchmark])[benchmark].cases(setting).items()))
 
 
 def _repeat(call: Call, most_s: float = 1.0) -> tuple[int, float]:
@@ -119,12 +119,12 @@ def _name(file: str, line: int, function: str) -> str:
     return function if file == "~" else f"{'/'.join(path.parts[-2:])}:{line} {function}"
 
 
-def profile(road: str, models: str | None, threads: int, variant: str | None = None) -> dict[str, Any]:
+def profile(benchmark: str, models: str | None, threads: int, variant: str | None = None) -> dict[str, Any]:
     """Everything that ``motionrt bench --profile`` prints, times in ms of one call."""
-    work = road_work(road, models, threads, variant)
+    work = benchmark_work(benchmark, models, threads, variant)
     in_models = work.all.run_seconds
     return {
-        "road": road,
+        "benchmark": benchmark,
         "case": work.case,
         "units": work.units,
         "threads": threads,
@@ -132,7 +132,7 @@ def profile(road: str, models: str | None, threads: int, variant: str | None = N
         "models_ms": {name: 1000 * each.run_seconds for name, each in work.models.items()},
         "outside_ms": 1000 * (work.wall_s - in_models),
         "operators_ms": _longest(work.all.seconds),
-        "python": python_work(road, models, threads, variant),
+        "python": python_work(benchmark, models, threads, variant),
     }
 
 

@@ -9,17 +9,17 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
+from motionrt.bench.cases import COLD, chosen
 from motionrt.bench.footprint import install_sizes
 from motionrt.bench.graphs import graph_case
 from motionrt.bench.limits import against_times
 from motionrt.bench.memory import peaks
 from motionrt.bench.moves import PERFORM
 from motionrt.bench.processes import run_module
-from motionrt.bench.roads import COLD, chosen
 from motionrt.bench.starts import cold_starts
 from motionrt.bench.timing import Turns
 from motionrt.bench.workload import SIZES
-from motionrt.locomotion.walking import FPS
+from motionrt.locomotion.crowd import FPS
 from motionrt.models.threads import usable_cpus
 
 Note = Callable[[str], None]
@@ -36,12 +36,12 @@ class Plan:
         models: the manifest or its folder, by default the shipped one.
         variant: which files of the models, by default those that the manifest prefers.
         against: names of rivals, which take turns with motionrt in the same process.
-        only: names of roads; None is all.
+        only: names of benchmarks; None is all.
         sizes: of the galleries that are searched.
         turns: how often, and in which order.
         strict: time everything a second time, call by call in turn.
-        limits: measure the machine's peaks, too, and how far every road is from them.
-        limit_s: for how long a road is gone for that.
+        limits: measure the machine's peaks, too, and how far every benchmark is from them.
+        limit_s: for how long a benchmark runs for that.
         cold_runs: fresh processes for the cold start.
     """
 
@@ -62,7 +62,7 @@ def run_bench(plan: Plan, note: Note = lambda _: None) -> Found:
     """Measure; ``note`` is told what is going on.
 
     Raises:
-        InvalidInputError: no road has that name.
+        InvalidInputError: no benchmark has that name.
         MotionRTError: a benchmark process failed.
     """
     chosen(plan.only)  # before anything starts
@@ -95,7 +95,7 @@ def _run(plan: Plan, threads: int, note: Note) -> Found:
         limits = run_module(
             "motionrt.bench.limits", {**common, "only": only, "sizes": plan.sizes, "seconds": plan.limit_s}
         )
-        run["limits"] = {**limits, "roads": against_times(limits["roads"], found["cases"])}
+        run["limits"] = {**limits, "benchmarks": against_times(limits["benchmarks"], found["cases"])}
     return {**run, **derived(found["cases"])}
 
 

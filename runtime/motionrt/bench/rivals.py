@@ -20,7 +20,7 @@ class Rival:
     """Another way to do the same work.
 
     Attributes:
-        cases: for the names of cases of :mod:`motionrt.bench.roads`, any of them, what the rival calls.
+        cases: for the names of cases of :mod:`motionrt.bench.cases`, any of them, what the rival calls.
         cold_start: a command that prints a line as soon as it has embedded its first text; where that is a JSON
             object, its ``peak_mb`` is the most memory that the process has held.
     """

@@ -1,4 +1,4 @@
-"""What the roads share: models, inputs and a folder for files; each opens when a road needs it."""
+"""What the benchmarks share: models, inputs and a folder for files, each opened when first needed."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from motionrt.runtime import Runtime
 if TYPE_CHECKING:
     from onnxruntime import SessionOptions
 
-    from motionrt.locomotion.players import ModelPlayers
+    from motionrt.locomotion.character_models import OnnxCharacterModels
 
 
 class Setting:
@@ -54,10 +54,10 @@ class Setting:
         return load_manifest(find_manifest(self.models))
 
     @property
-    def players(self) -> ModelPlayers:
+    def character_models(self) -> OnnxCharacterModels:
         """The models of walking and acting."""
-        players: Any = self.runtime.players
-        found: ModelPlayers = players
+        character_models: Any = self.runtime.character_models
+        found: OnnxCharacterModels = character_models
         return found
 
     @cached_property
@@ -68,7 +68,7 @@ class Setting:
     def sessions(self, model: str) -> Sessions:
         """The sessions that the runtime opens a model in."""
         ours = self.runtime.model.sessions
-        return self.players.sessions if model in MOVING else ours
+        return self.character_models.sessions if model in MOVING else ours
 
     def missing(self, needed: Sequence[str]) -> list[str]:
         """Those of the models that the manifest does not hold."""

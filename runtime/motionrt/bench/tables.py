@@ -41,7 +41,7 @@ def strict_rows(run: Mapping[str, Any], rivals: Sequence[str]) -> list[Row]:
 
 
 def limit_rows(limits: Mapping[str, Any]) -> list[Row]:
-    """Rows of the roads against the machine's peaks; :data:`LIMITS` are their titles."""
+    """Rows of the benchmarks against the machine's peaks; :data:`LIMITS` are their titles."""
     return [
         [
             row["case"],
@@ -53,11 +53,11 @@ def limit_rows(limits: Mapping[str, Any]) -> list[Row]:
             ms(row["p50_ms"]),
             f"{row['times_limit']:.1f} x",
         ]
-        for row in limits["roads"]
+        for row in limits["benchmarks"]
     ]
 
 
-LIMITS = ["road", "10^6 int8 MACs", "fp32", "weights, MB", "sums", "reads", "p50", "times the limit"]
+LIMITS = ["benchmark", "10^6 int8 MACs", "fp32", "weights, MB", "sums", "reads", "p50", "times the limit"]
 PEAKS = ["peak", "10^9 a second"]
 
 

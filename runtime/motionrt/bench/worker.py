@@ -9,9 +9,9 @@ from dataclasses import asdict
 from typing import Any
 
 from motionrt.bench.answering import answered
+from motionrt.bench.cases import COLD, chosen
 from motionrt.bench.graphs import called_with, graph_case
 from motionrt.bench.rivals import Rival, open_rival
-from motionrt.bench.roads import COLD, chosen
 from motionrt.bench.setting import Setting
 from motionrt.bench.timing import Case, Contest, Timing, Turns, timed
 from motionrt.bench.workload import SIZES, Workload
@@ -33,7 +33,7 @@ def measure(
     sizes: Sequence[int] = SIZES,
     variant: str | None = None,
 ) -> dict[str, Any]:
-    """p50 and p95 of every case of the roads, with those of the rivals beside them where they have the case.
+    """p50 and p95 of every case of the benchmarks, with those of the rivals beside them where they have the case.
 
     Roads whose models the manifest does not hold are left out, and so are those whose models cannot do it. With
     ``strict`` everything is timed again, call by call in turn.
@@ -52,15 +52,15 @@ def measure(
 
 
 def prepared(setting: Setting, only: Sequence[str] | None) -> tuple[dict[str, Case], dict[str, str]]:
-    """The cases of the roads; and of the roads that cannot be gone, why."""
+    """The cases of the benchmarks; and of the benchmarks that cannot run, why."""
     cases: dict[str, Case] = {}
     left_out: dict[str, str] = {}
-    for name, road in chosen(only).items():
-        if missing := setting.missing(road.models):
+    for name, benchmark in chosen(only).items():
+        if missing := setting.missing(benchmark.models):
             left_out[name] = f"no model {', '.join(missing)}"
             continue
         try:
-            cases |= road.cases(setting)
+            cases |= benchmark.cases(setting)
         except (WalkError, ReachError, MissingDependencyError) as error:
             left_out[name] = str(error)
     return cases, left_out

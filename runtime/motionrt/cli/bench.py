@@ -12,7 +12,7 @@ from motionrt.cli.options import add_json, command
 if TYPE_CHECKING:
     from motionrt.bench.report import Plan
 
-HELP = """measure every road, cold start and memory on this machine, alone or beside torch
+HELP = """measure every benchmark, cold start and memory on this machine, alone or beside torch
 Every figure is for one call; those of walks are for one character and frame, those of clips for one clip. With
 --against others do the same work in turn in the same process at the same thread count: ten calls each after two
 untimed ones, as a game's loop calls in sequence; --strict adds figures for one call each in turn."""
@@ -29,17 +29,17 @@ def _add_what(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("--threads", type=_counts, default=[1, 2], metavar="N,N", help="thread counts (default: 1,2)")
     add("--against", type=_names, default=[], metavar="NAME,NAME", help="compare with these: torch, transformers")
-    add("--only", type=_names, metavar="ROAD,ROAD", help="some roads only, as in text,walk,pose")
+    add("--only", type=_names, metavar="NAME,NAME", help="some benchmarks only, as in text,walk,pose")
     add("--sizes", type=_counts, metavar="N,N", help="vectors searched (default: 1000,10000,100000; try 1000000)")
     add("--models", type=Path, metavar="PATH", help="models manifest or folder (default: shipped)")
     add("--variant", metavar="NAME", help="which files of the models, as in fp32")
     add("--quick", action="store_true", help="a few calls only: shows that it runs, not how fast")
     add("--strict", action="store_true", help="time everything again, call by call in turn")
-    add("--limits", action="store_true", help="also the machine's peaks, and how far from them every road is")
+    add("--limits", action="store_true", help="also the machine's peaks, and how far from them every benchmark is")
 
 
 def _add_shown(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--profile", metavar="ROAD", help="only show where this road's time goes")
+    parser.add_argument("--profile", metavar="NAME", help="only show where this benchmark's time goes")
     parser.add_argument("--markdown", action="store_true", help="print a Markdown table")
     parser.add_argument("--plot", type=Path, metavar="FILE", help="draw cost against batch and gallery size (PNG)")
     add_json(parser)
@@ -89,7 +89,7 @@ def _profile(arguments: argparse.Namespace) -> int:
 
     for threads in arguments.threads:
         asked = {"models": _models(arguments), "threads": threads, "variant": arguments.variant}
-        found = run_module("motionrt.bench.profiling", {"road": arguments.profile, **asked})
+        found = run_module("motionrt.bench.profiling", {"benchmark": arguments.profile, **asked})
         if arguments.json:
             print_json(found)
         else:
@@ -107,8 +107,8 @@ def _print(found: dict[str, Any]) -> None:
         header = tables.header(part["threads"], rivals)
         print()
         print_table(header, tables.rows(part, rivals), "<" + ">" * (len(header) - 1))
-        for road, why in part["left_out"].items():
-            print(f"left out: {road} ({why})")
+        for benchmark, why in part["left_out"].items():
+            print(f"left out: {benchmark} ({why})")
         if limits := part.get("limits"):
             print()
             print_table(tables.PEAKS, tables.peak_rows(limits["peaks"]), "<>")

@@ -10,28 +10,28 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from motionrt.locomotion.actions import Act, Action, Do, Follow, Stand, Wait, WalkTo
+    from motionrt.locomotion.crowd import Crowd
     from motionrt.locomotion.goal_frame import Goal, canonicalise, uncanonicalise
-    from motionrt.locomotion.journey import Pace
-    from motionrt.locomotion.paths import Path, Waypoints
+    from motionrt.locomotion.path import Path, Waypoints
+    from motionrt.locomotion.path_following import Pace
     from motionrt.locomotion.performance import Performance, PerformanceMeasures, Segment
     from motionrt.locomotion.posing import PoseSolution, solve_pose
     from motionrt.locomotion.scene import Agent, Scene
     from motionrt.locomotion.script import Script
-    from motionrt.locomotion.walking import Crowd
-    from motionrt.locomotion.walks import Walk
+    from motionrt.locomotion.walk import Walk
     from motionrt.locomotion.words import SemanticCloud, action_keypoints, load_cloud
 
 _HOMES = {
     "actions": ("Act", "Action", "Do", "Follow", "Stand", "Wait", "WalkTo"),
     "goal_frame": ("Goal", "canonicalise", "uncanonicalise"),
-    "journey": ("Pace",),
-    "paths": ("Path", "Waypoints"),
+    "path_following": ("Pace",),
+    "path": ("Path", "Waypoints"),
     "performance": ("Performance", "PerformanceMeasures", "Segment"),
     "posing": ("PoseSolution", "solve_pose"),
     "scene": ("Agent", "Scene"),
     "script": ("Script",),
-    "walking": ("Crowd",),
-    "walks": ("Walk",),
+    "crowd": ("Crowd",),
+    "walk": ("Walk",),
     "words": ("SemanticCloud", "action_keypoints", "load_cloud"),
 }
 _HOME = {name: home for home, names in _HOMES.items() for name in names}

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from motionrt.errors import InvalidInputError
-from motionrt.locomotion.paths import Path
+from motionrt.locomotion.path import Path
 
 HOLD_S = 2.0  # seconds that a pose is held if nothing else is said
 

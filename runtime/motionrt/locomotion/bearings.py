@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from motionrt.locomotion.paths import Path
+from motionrt.locomotion.path import Path
 from motionrt.motion import Motion
 from motionrt.motion.transforms import TOE_JOINTS
 from motionrt.motion.transforms import heading as headings

@@ -17,14 +17,14 @@ from motionrt.locomotion.bearings import (
     over_feet,
     place_of,
 )
+from motionrt.locomotion.character_models import CharacterModels
+from motionrt.locomotion.crowd import FPS, at_30_fps
 from motionrt.locomotion.goal_frame import Goal, uncanonicalise
-from motionrt.locomotion.journey import Pace, Progress, walk
-from motionrt.locomotion.paths import Path
+from motionrt.locomotion.path import Path
+from motionrt.locomotion.path_following import Pace, Progress, walk
 from motionrt.locomotion.performance import Aim, Performance, Segment, performance_of
-from motionrt.locomotion.players import Players
 from motionrt.locomotion.terrain import Heights, Terrain, raised
 from motionrt.locomotion.transitions import distance, speed_of
-from motionrt.locomotion.walking import FPS, at_30_fps
 from motionrt.motion import Motion
 from motionrt.motion.rotations import wrapped
 
@@ -48,7 +48,7 @@ class Character:
     """What the character did so far, and the few things that it can do next.
 
     Args:
-        players: the models.
+        models: the models.
         start: where it stands at first, or what it did before (which is not part of what it does then).
         scene: finds ways round obstacles; without one it walks straight.
         pace: how it walks.
@@ -57,14 +57,20 @@ class Character:
     """
 
     def __init__(
-        self, players: Players, start: Goal | Motion, scene: Planner | None, pace: Pace, seed: int, level: float = 0.0
+        self,
+        models: CharacterModels,
+        start: Goal | Motion,
+        scene: Planner | None,
+        pace: Pace,
+        seed: int,
+        level: float = 0.0,
     ) -> None:
-        self.players, self.scene, self.pace = players, scene, pace
+        self.models, self.scene, self.pace = models, scene, pace
         self._seed = seed
         self._segments: list[Segment] = []
         self._aims: list[Aim] = []
         self.terrain = Terrain(scene, level)
-        before = at_30_fps(start) if isinstance(start, Motion) else uncanonicalise(players.standing, start)
+        before = at_30_fps(start) if isinstance(start, Motion) else uncanonicalise(models.standing, start)
         self._level = self.terrain.at(place_of(before))
         self._levels: list[Heights] = []
         if isinstance(start, Motion):
@@ -115,7 +121,7 @@ class Character:
         """Walk along a path up to so many metres before its end; short ways are left to the transition that follows."""
         rest = self.leave(path, name, until)
         if rest is not None:
-            self.walked(walk(self.players.walk, self.tail, rest, self.pace.before_end(until), progress), rest, name)
+            self.walked(walk(self.models.walk, self.tail, rest, self.pace.before_end(until), progress), rest, name)
 
     def leave(self, path: Path | None, name: str, until: float) -> Path | None:
         """Get into a stride; what is left of the path to walk, if anything."""
@@ -142,7 +148,7 @@ class Character:
 
     def get_up(self, name: str) -> None:
         """Stand upright over the feet, if the pose is a low one."""
-        if not self.moving and self.players.standing.root[0, 1] - self._pose.root[0, 1] > LOW:
+        if not self.moving and self.models.standing.root[0, 1] - self._pose.root[0, 1] > LOW:
             self.stand_here(name)
 
     def stand_here(self, name: str) -> None:
@@ -154,14 +160,14 @@ class Character:
     def into(self, pose: Motion, name: str, level: float | None = None) -> None:
         """The transition into a pose that will be held, on ground that is ``level`` metres high."""
         self._pose = pose
-        self._add("transition", name, self.players.transition(self.tail, pose, held=True), pose, level=level)
+        self._add("transition", name, self.models.transition(self.tail, pose, held=True), pose, level=level)
         self.moving = False
 
     def hold(self, seconds: float, name: str, keypoints: Mapping[str, Sequence[float]] | None = None) -> None:
         """Stay in the present pose."""
         if round(seconds * FPS) > 0:
             self._seed += 1
-            self._add("hold", name, self.players.hold(self._pose, seconds, self._seed), None, keypoints)
+            self._add("hold", name, self.models.hold(self._pose, seconds, self._seed), None, keypoints)
 
     # -- what it did
 
@@ -185,8 +191,8 @@ class Character:
         place, facing = path.at(ahead), heading_along(path, ahead)
         self.get_up(name)
         self.turn(facing, name)
-        stride = uncanonicalise(self.players.stride[-STRIDE:], Goal(float(place[0]), float(place[1]), facing))
-        self._add("transition", name, self.players.transition(self.tail, stride), stride)
+        stride = uncanonicalise(self.models.stride[-STRIDE:], Goal(float(place[0]), float(place[1]), facing))
+        self._add("transition", name, self.models.transition(self.tail, stride), stride)
         self.moving = True
         return path.part(ahead, path.length) if path.length - ahead > 0.05 else None
 
@@ -200,7 +206,7 @@ class Character:
         return np.linspace(self._level, aim, motion.frames + 1)[1:]
 
     def _stand(self, goal: Goal, name: str) -> None:
-        self.into(uncanonicalise(self.players.standing, goal), name)
+        self.into(uncanonicalise(self.models.standing, goal), name)
 
     def _add(
         self,

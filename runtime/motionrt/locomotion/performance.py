@@ -9,7 +9,7 @@ from pathlib import Path as FilePath
 
 import numpy as np
 
-from motionrt.locomotion.paths import Path
+from motionrt.locomotion.path import Path
 from motionrt.locomotion.terrain import Heights, on_plane, raised, smoothed
 from motionrt.metrics.locomotion import end_error, path_distances
 from motionrt.metrics.walk_report import LocomotionMeasures

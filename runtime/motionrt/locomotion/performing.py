@@ -15,11 +15,11 @@ from motionrt.errors import InvalidInputError, MotionRTError
 from motionrt.locomotion.actions import Act, Action, Do, Follow, Stand, Wait, WalkTo
 from motionrt.locomotion.bearings import apart, facing_of, heading_along, place_of
 from motionrt.locomotion.character import NEAR, Character, Planner
+from motionrt.locomotion.character_models import CharacterModels
 from motionrt.locomotion.goal_frame import Goal
-from motionrt.locomotion.journey import Pace, Progress
-from motionrt.locomotion.paths import Path
+from motionrt.locomotion.path import Path
+from motionrt.locomotion.path_following import Pace, Progress
 from motionrt.locomotion.performance import Performance
-from motionrt.locomotion.players import Players
 from motionrt.motion import Motion
 from motionrt.motion.transforms import TOE_JOINTS
 
@@ -33,7 +33,7 @@ class Performer:
     """A character on its way through a list of actions.
 
     Args:
-        players: the models.
+        models: the models.
         start: where it stands at first, or what it did before.
         scene: finds ways round obstacles; without one it walks straight.
         cloud: tells what words such as "sofa" mean.
@@ -44,7 +44,7 @@ class Performer:
 
     def __init__(
         self,
-        players: Players,
+        models: CharacterModels,
         start: Goal | Motion,
         scene: Planner | None = None,
         *,
@@ -54,7 +54,7 @@ class Performer:
         progress: Progress | None = None,
     ) -> None:
         level = 0.0 if cloud is None else cloud.floor
-        self.character = Character(players, start, scene, pace or Pace(), seed, level)
+        self.character = Character(models, start, scene, pace or Pace(), seed, level)
         self.cloud, self._progress = cloud, progress
 
     def perform(self, actions: Sequence[Action], *, stop: bool = True, foot_lock: bool = True) -> Performance:
@@ -118,7 +118,7 @@ class Performer:
         character = self.character
         level = character.terrain.at(_foothold(action), 0.0)
         lowered = {joint: (x, y - level, z) for joint, (x, y, z) in action.keypoints.items()}
-        pose = character.players.pose(lowered, action.heading).motion
+        pose = character.models.pose(lowered, action.heading).motion
         root, facing = place_of(pose), facing_of(pose)
         gate = action.approach or root
         if apart(root, character.place) > NEAR:

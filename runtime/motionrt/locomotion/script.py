@@ -6,12 +6,12 @@ from dataclasses import dataclass
 from pathlib import Path as FilePath
 
 from motionrt.locomotion.actions import Action, Do
+from motionrt.locomotion.crowd import SPEED
 from motionrt.locomotion.goal_frame import Goal
-from motionrt.locomotion.journey import Pace
+from motionrt.locomotion.path_following import Pace
 from motionrt.locomotion.script_nodes import Node, read_nodes
 from motionrt.locomotion.script_scene import SceneSpec, file_beside, read_scene
 from motionrt.locomotion.script_steps import read_steps
-from motionrt.locomotion.walking import SPEED
 
 _KEYS = ("scene", "cloud", "start", "speed", "seed", "foot_lock", "steps")
 

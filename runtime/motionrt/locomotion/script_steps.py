@@ -8,7 +8,7 @@ import numpy as np
 
 from motionrt.limits import how_to_raise, limits
 from motionrt.locomotion.actions import HOLD_S, Act, Action, Do, Follow, Stand, Wait, WalkTo
-from motionrt.locomotion.paths import Path
+from motionrt.locomotion.path import Path
 from motionrt.locomotion.script_nodes import Node, unknown
 from motionrt.locomotion.script_scene import file_beside
 from motionrt.motion import SMPL24

@@ -6,7 +6,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
-from motionrt.locomotion.walking import NextFrame
+from motionrt.locomotion.crowd import NextFrame
 from motionrt.models.threads import thread_count
 from motionrt.motion.skeleton import FloatArray
 
@@ -30,7 +30,7 @@ class Spread:
         self._pool = ThreadPoolExecutor(max(1, self.threads - 1), thread_name_prefix="motionrt-walk")
 
     def __call__(self, frames: FloatArray, speed: FloatArray) -> FloatArray:
-        """Next frames ``(B, 219)``, as the model gives them; see :data:`motionrt.locomotion.walking.NextFrame`."""
+        """Next frames ``(B, 219)``, as the model gives them; see :data:`motionrt.locomotion.crowd.NextFrame`."""
         count = pieces(len(frames), self.threads)
         if count <= 1:
             return self.model(frames, speed)

@@ -9,10 +9,10 @@ import numpy.typing as npt
 
 from motionrt.locomotion.bearings import apart, facing_of, over_feet, place_of
 from motionrt.locomotion.character import MOVING, NEAR, SEED, SHARPEST, STRIDE
+from motionrt.locomotion.character_models import CharacterModels
+from motionrt.locomotion.crowd import FPS, SPEED, Crowd, at_30_fps, to_motion
 from motionrt.locomotion.goal_frame import Goal, uncanonicalise
-from motionrt.locomotion.players import Players
 from motionrt.locomotion.transitions import distance, speed_of
-from motionrt.locomotion.walking import FPS, SPEED, Crowd, at_30_fps, to_motion
 from motionrt.models.walknet import HISTORY
 from motionrt.motion import Motion
 from motionrt.motion.features import ccf219
@@ -29,16 +29,18 @@ class Stroller:
     """A character that is asked for its next frame again and again; its goal may change between any two frames.
 
     Args:
-        players: the models.
+        models: the models.
         start: where it stands, or what it did before.
         goal: where to walk first.
         speed: metres per second.
         seed: of the small movements while it stands.
     """
 
-    def __init__(self, players: Players, start: Goal | Motion, goal: Goal, speed: float = SPEED, seed: int = 0) -> None:
-        self.players, self.goal, self.speed = players, goal, speed
-        before = at_30_fps(start) if isinstance(start, Motion) else uncanonicalise(players.standing, start)
+    def __init__(
+        self, models: CharacterModels, start: Goal | Motion, goal: Goal, speed: float = SPEED, seed: int = 0
+    ) -> None:
+        self.models, self.goal, self.speed = models, goal, speed
+        before = at_30_fps(start) if isinstance(start, Motion) else uncanonicalise(models.standing, start)
         frames = ccf219.encode(before)[-SEED:].astype(np.float64)
         self._last: Frames = np.pad(frames, ((SEED - len(frames), 0), (0, 0)), mode="edge")
         self._ready: list[Frames] = []
@@ -67,7 +69,7 @@ class Stroller:
             return self._from_stand(seen, away)
         if away <= distance(self.speed, 0.0):
             return self._stand(seen, Goal(self.goal.x, self.goal.z, self._turned(seen, self.goal.heading)))
-        crowd = Crowd(self.players.walk, self._last[None, -HISTORY:])
+        crowd = Crowd(self.models.walk, self._last[None, -HISTORY:])
         return crowd.step(np.array([self.goal.row()]), self.speed)
 
     def _from_stand(self, seen: Motion, away: float) -> Frames:
@@ -81,18 +83,18 @@ class Stroller:
         if away > THERE or abs(wrapped(self.goal.heading - facing_of(seen))) > THERE:
             return self._stand(seen, Goal(self.goal.x, self.goal.z, self._turned(seen, self.goal.heading)))
         self._seed += 1
-        return _rows(self.players.hold(seen[-1:], IDLE_S, self._seed))
+        return _rows(self.models.hold(seen[-1:], IDLE_S, self._seed))
 
     def _set_off(self, seen: Motion, ahead: float, away: float) -> Frames:
         self._walks = True
         far = min(distance(0.0, self.speed), away)
         x, z = place_of(seen)
         place = Goal(x + far * float(np.sin(ahead)), z + far * float(np.cos(ahead)), ahead)
-        return _rows(self.players.transition(seen, uncanonicalise(self.players.stride[-STRIDE:], place)))
+        return _rows(self.models.transition(seen, uncanonicalise(self.models.stride[-STRIDE:], place)))
 
     def _stand(self, seen: Motion, goal: Goal) -> Frames:
         self._walks = False
-        return _rows(self.players.transition(seen, uncanonicalise(self.players.standing, goal), held=True))
+        return _rows(self.models.transition(seen, uncanonicalise(self.models.standing, goal), held=True))
 
     def _turned(self, seen: Motion, facing: float) -> float:
         """As far towards a heading as one transition turns."""
@@ -104,7 +106,7 @@ class Stroller:
 
 
 def stream(
-    players: Players,
+    models: CharacterModels,
     start: Goal | Motion,
     goal: Goal,
     *,
@@ -113,7 +115,7 @@ def stream(
     seed: int = 0,
 ) -> Generator[Motion, Goal | None, None]:
     """Frames for ever, one :class:`Motion` of one frame at 30 fps each: ``next`` goes on, ``send`` gives a new goal."""
-    walker = Stroller(players, start, goal, speed, seed)
+    walker = Stroller(models, start, goal, speed, seed)
     locker = FootLocker(FPS)
     while True:
         frame = walker.step()

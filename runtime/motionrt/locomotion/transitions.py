@@ -10,8 +10,8 @@ import numpy.typing as npt
 
 from motionrt.errors import InvalidInputError
 from motionrt.locomotion.bearings import joined
+from motionrt.locomotion.crowd import to_motion
 from motionrt.locomotion.goal_frame import Goal, frames_from_goal, frames_to_goal
-from motionrt.locomotion.walking import to_motion
 from motionrt.models.transnet import SEED, WINDOW
 from motionrt.motion import Motion
 from motionrt.motion.features import ccf219

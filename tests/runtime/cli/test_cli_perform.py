@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from fake_players import FakePlayers
+from fake_character_models import FakeCharacterModels
 
 from motionrt import load_motion
 from motionrt.cli import main
@@ -29,8 +29,8 @@ steps:
 
 
 @pytest.fixture(autouse=True)
-def players(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(Runtime, "players", FakePlayers())
+def character_models(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Runtime, "character_models", FakeCharacterModels())
 
 
 @pytest.fixture

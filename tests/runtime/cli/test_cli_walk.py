@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from fake_players import FakePlayers, stays
+from fake_character_models import FakeCharacterModels, stays
 
 from motionrt import load_motion
 from motionrt.cli import main
@@ -20,8 +20,8 @@ RunJson = Callable[..., Any]
 
 
 @pytest.fixture(autouse=True)
-def players(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(Runtime, "players", FakePlayers())
+def character_models(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Runtime, "character_models", FakeCharacterModels())
 
 
 @pytest.fixture
@@ -103,7 +103,7 @@ def test_an_error_is_one_line_and_exit_code_one(
 def test_a_character_that_is_stuck_is_exit_code_one(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(Runtime, "players", FakePlayers(stays))
+    monkeypatch.setattr(Runtime, "character_models", FakeCharacterModels(stays))
     assert main(["walk", "--to", "0", "9", "-o", str(tmp_path / "out.bvh")]) == 1
     assert "the character stays" in capsys.readouterr().err
 

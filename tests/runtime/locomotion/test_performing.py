@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 import pytest
-from fake_players import FPS, FakePlayers, stays
+from fake_character_models import FPS, FakeCharacterModels, stays
 from motions import walking
 
 from motionrt.errors import InvalidInputError, PathError, ReachError, WalkError
@@ -27,7 +27,7 @@ from motionrt.locomotion import (
 from motionrt.locomotion.actions import Action
 from motionrt.locomotion.bearings import facing_of
 from motionrt.locomotion.performing import Performer
-from motionrt.locomotion.poses import stride_of
+from motionrt.locomotion.starting_poses import stride_of
 
 SIT = Act({"pelvis": (0.0, 0.55, 11.0)}, heading=np.pi, approach=(0.0, 10.6), name="sit")
 HIGH = Act({"right_hand": (4.0, 1.2, 3.0)}, heading=0.0, name="grab high", hold_s=1.0)
@@ -36,7 +36,7 @@ SCENE = [WalkTo(0, 8), SIT, Stand(), WalkTo(4, 2), HIGH, LOW, WalkTo(9, 9)]
 
 
 def perform(actions: Sequence[Action], start: Goal | None = None, **options: object) -> Performance:
-    performer = Performer(FakePlayers(), start or Goal(0, 0), **options)
+    performer = Performer(FakeCharacterModels(), start or Goal(0, 0), **options)
     return performer.perform(actions, foot_lock=False)
 
 
@@ -128,14 +128,14 @@ def test_walks_in_a_row_do_not_stop_between() -> None:
 
 
 def test_a_walk_can_end_in_stride() -> None:
-    done = Performer(FakePlayers(), Goal(0, 0)).perform([WalkTo(0, 6)], stop=False)
+    done = Performer(FakeCharacterModels(), Goal(0, 0)).perform([WalkTo(0, 6)], stop=False)
     assert kinds(done)[-1] == "walk"
     np.testing.assert_allclose(done.motion.root[-1, [0, 2]], [0, 6], atol=0.15)
 
 
 def test_a_motion_is_gone_on_from() -> None:
     before = stride_of(walking(45, FPS))
-    done = Performer(FakePlayers(), before).perform([WalkTo(0, 5)], foot_lock=False)
+    done = Performer(FakeCharacterModels(), before).perform([WalkTo(0, 5)], foot_lock=False)
     assert kinds(done)[0] == "walk"
     np.testing.assert_allclose(done.motion.root[0], before.root[-1] + [0, 0, 1.2 / FPS], atol=1e-4)
 
@@ -155,7 +155,7 @@ def test_waiting_stops_a_walk_and_keeps_a_pose() -> None:
 def test_who_sits_gets_up_before_walking_off() -> None:
     done = perform([SIT, WalkTo(0, 2)])
     after = [segment for segment in done.segments if segment.name == "walk to 0.0, 2.0"]
-    standing = FakePlayers().standing.root[0, 1]
+    standing = FakeCharacterModels().standing.root[0, 1]
     assert done.motion.root[after[0].end - 1, 1] == pytest.approx(standing, abs=1e-4)
     assert np.linalg.norm(done.motion.root[after[0].end - 1, [0, 2]] - [0, 11]) < 0.3
 
@@ -201,7 +201,7 @@ def test_no_way_and_no_progress_are_errors() -> None:
     with pytest.raises(PathError, match="step 1"):
         perform([WalkTo(4, 0), WalkTo(0, 0)], scene=rooms)
     with pytest.raises(WalkError):
-        Performer(FakePlayers(stays), Goal(0, 0)).perform([WalkTo(0, 6)])
+        Performer(FakeCharacterModels(stays), Goal(0, 0)).perform([WalkTo(0, 6)])
 
 
 def test_nothing_to_do_is_refused() -> None:

@@ -7,19 +7,19 @@ from itertools import islice
 
 import numpy as np
 import pytest
-from fake_players import FPS, FakePlayers
+from fake_character_models import FPS, FakeCharacterModels
 from motions import random_motion, walking
 
 from motionrt.errors import InvalidInputError
 from motionrt.locomotion.bearings import facing_of
 from motionrt.locomotion.goal_frame import Goal
-from motionrt.locomotion.poses import stride_of
+from motionrt.locomotion.starting_poses import stride_of
 from motionrt.locomotion.streaming import stream
 from motionrt.motion import Motion
 
 
 def frames(goal: Goal, count: int, start: Goal | Motion | None = None, **options: object) -> list[Motion]:
-    return list(islice(stream(FakePlayers(), start or Goal(0, 0), goal, **options), count))
+    return list(islice(stream(FakeCharacterModels(), start or Goal(0, 0), goal, **options), count))
 
 
 def roots(motions: list[Motion]) -> np.ndarray:
@@ -35,7 +35,7 @@ def test_it_arrives_and_stays_facing_as_told() -> None:
 
 
 def test_a_new_goal_takes_effect_from_the_next_frame() -> None:
-    walker = stream(FakePlayers(), stride_of(walking(60, FPS)), Goal(0, 20))
+    walker = stream(FakeCharacterModels(), stride_of(walking(60, FPS)), Goal(0, 20))
     before = [next(walker) for _ in range(30)]
     after = [walker.send(Goal(20, 1, 0)), *islice(walker, 9)]
     assert np.diff(roots(before), axis=0)[:, 0] == pytest.approx(0, abs=1e-6)
@@ -44,7 +44,7 @@ def test_a_new_goal_takes_effect_from_the_next_frame() -> None:
 
 
 def test_a_goal_sent_while_it_stands_makes_it_set_off() -> None:
-    walker = stream(FakePlayers(), Goal(0, 0), Goal(0, 0))
+    walker = stream(FakeCharacterModels(), Goal(0, 0), Goal(0, 0))
     np.testing.assert_allclose(roots(list(islice(walker, 90))), 0, atol=0.02)
     walker.send(Goal(-6, 0, 0))
     assert roots(list(islice(walker, 400)))[-1] == pytest.approx([-6, 0], abs=0.02)
@@ -62,7 +62,7 @@ def test_a_motion_is_gone_on_from() -> None:
     np.testing.assert_allclose(first.root[0, [0, 2]], [0, 1.2 / FPS], atol=1e-4)
 
 
-class Drifting(FakePlayers):
+class Drifting(FakeCharacterModels):
     """Holds that slide by a millimetre a frame."""
 
     def hold(self, pose: Motion, seconds: float, seed: int) -> Motion:
@@ -82,4 +82,4 @@ def test_locked_feet_do_not_slide() -> None:
 
 def test_another_frame_rate_is_refused() -> None:
     with pytest.raises(InvalidInputError, match="resample"):
-        next(stream(FakePlayers(), random_motion(30, 20.0), Goal(0, 5)))
+        next(stream(FakeCharacterModels(), random_motion(30, 20.0), Goal(0, 5)))

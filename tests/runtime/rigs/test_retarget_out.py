@@ -20,7 +20,7 @@ from motionrt.formats import load_rig
 from motionrt.metrics import foot_skate
 from motionrt.motion import SMPL24, Motion
 from motionrt.motion.feet.flat_ground import flat_ground
-from motionrt.rigs.roles import cast_roles
+from motionrt.rigs.roles import assign_roles
 from motionrt.rigs.tree import RigTree
 
 DATA = Path(__file__).parents[3].parent / "shared" / "data" / "mocap"
@@ -316,7 +316,7 @@ def test_a_recorded_walk_on_a_recorded_rig_keeps_its_contacts(trial: str) -> Non
     walk = flat_ground(load_motion(folder / "16_15.bvh").resample(30))
     rig = load_target(folder / f"{trial}.bvh")
     moved = walk.retarget_to(rig)
-    joints = cast_roles(RigTree(rig.clip), None).joints
+    joints = assign_roles(RigTree(rig.clip), None).joints
     places = moved.positions() / moved.units_per_metre
     toes = places[:, [joints["left_foot"], joints["right_foot"]]].astype(np.float64)
     assert toes_skate(toes, moved.sole / moved.units_per_metre) <= 1.2 * foot_skate(walk.positions())

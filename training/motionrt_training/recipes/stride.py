@@ -16,8 +16,8 @@ from pathlib import Path
 import numpy as np
 
 from motionrt.formats.motion_pack import MotionPack
-from motionrt.locomotion.poses import solved_standing, stride_of
-from motionrt.locomotion.walking import Crowd, NextFrame, to_motion
+from motionrt.locomotion.crowd import Crowd, NextFrame, to_motion
+from motionrt.locomotion.starting_poses import solved_standing, stride_of
 from motionrt.metrics.locomotion import foot_skate
 from motionrt.models import PosePrior, Sessions, WalkModel
 from motionrt.motion import Motion

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from motionrt.errors import PathError
-from motionrt.locomotion.paths import Path
+from motionrt.locomotion.path import Path
 from motionrt.locomotion.scene.blocking import unreachable
 from motionrt.locomotion.scene.corners import round_corners
 from motionrt.locomotion.scene.ends import End, find_end, spoken

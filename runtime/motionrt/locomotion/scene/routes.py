@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from motionrt.errors import InvalidInputError, PathError
-from motionrt.locomotion.paths import Path
+from motionrt.locomotion.path import Path
 from motionrt.locomotion.scene.grid import BoolArray, Points
 from motionrt.locomotion.scene.planner import Planner
 

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from motionrt.errors import InvalidInputError, SceneError
-from motionrt.locomotion.paths import Path
+from motionrt.locomotion.path import Path
 from motionrt.locomotion.scene import building
 from motionrt.locomotion.scene.agent import Agent
 from motionrt.locomotion.scene.grid import BoolArray, Grid

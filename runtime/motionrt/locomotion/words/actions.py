@@ -13,7 +13,7 @@ from motionrt.locomotion.words.cloud import SemanticCloud
 from motionrt.locomotion.words.footprint import Plan, Side, sides
 from motionrt.locomotion.words.instruction import Instruction, parse_instruction
 from motionrt.locomotion.words.seats import Seat, backrest_front, find_seat, seat_height
-from motionrt.locomotion.words.standing import BODY, TOES, Spot, best, spot_at
+from motionrt.locomotion.words.standing_place import BODY, TOES, Spot, best, spot_at
 from motionrt.locomotion.words.things import Thing, find_thing, ground_place
 from motionrt.motion.skeleton import FloatArray
 

@@ -11,7 +11,7 @@ from motionrt.errors import InvalidInputError
 from motionrt.locomotion.words.cloud import SemanticCloud
 from motionrt.locomotion.words.footprint import Plan, plan
 from motionrt.locomotion.words.instruction import Instruction
-from motionrt.locomotion.words.standing import Surroundings, surroundings
+from motionrt.locomotion.words.standing_place import Surroundings, surroundings
 from motionrt.locomotion.words.vocabulary import find_label
 from motionrt.motion.skeleton import FloatArray
 

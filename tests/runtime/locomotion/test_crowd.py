@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from fake_players import FPS, FakePlayers, towards_goal
+from fake_character_models import FPS, FakeCharacterModels, towards_goal
 from motions import random_motion, walking
 
 from motionrt.errors import InvalidInputError, WalkError
-from motionrt.locomotion.crowds import ABREAST, crowd
+from motionrt.locomotion.crowd import Crowd, history_of, to_motion
+from motionrt.locomotion.crowd_start import ABREAST, crowd
 from motionrt.locomotion.goal_frame import Goal, uncanonicalise
-from motionrt.locomotion.poses import stride_of
-from motionrt.locomotion.walking import Crowd, history_of, to_motion
+from motionrt.locomotion.starting_poses import stride_of
 
 STRIDE = stride_of(walking(40, FPS))
 
@@ -101,12 +101,12 @@ def test_another_frame_rate_is_refused_with_the_remedy() -> None:
 
 
 def test_a_number_of_characters_walks_abreast() -> None:
-    walkers = crowd(FakePlayers(), 3)
+    walkers = crowd(FakeCharacterModels(), 3)
     np.testing.assert_allclose(walkers.positions, [[-ABREAST, 0], [0, 0], [ABREAST, 0]], atol=1e-6)
 
 
 def test_characters_begin_in_stride_where_they_are_told() -> None:
-    walkers = crowd(FakePlayers(), [Goal(4, 5, np.pi / 2), (1, 2, 0)])
+    walkers = crowd(FakeCharacterModels(), [Goal(4, 5, np.pi / 2), (1, 2, 0)])
     np.testing.assert_allclose(walkers.positions, [[4, 5], [1, 2]], atol=1e-5)
     walked = to_motion(walkers.history[0])
     assert walked.root[-1, 0] - walked.root[0, 0] > 1.0  # along +X, as it faces
@@ -114,4 +114,4 @@ def test_characters_begin_in_stride_where_they_are_told() -> None:
 
 def test_nobody_is_no_crowd() -> None:
     with pytest.raises(InvalidInputError, match="at least one"):
-        crowd(FakePlayers(), 0)
+        crowd(FakeCharacterModels(), 0)

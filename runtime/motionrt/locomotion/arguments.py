@@ -14,7 +14,7 @@ from motionrt.errors import InvalidInputError
 from motionrt.locomotion.bearings import Place, heading_along
 from motionrt.locomotion.character import Planner
 from motionrt.locomotion.goal_frame import Goal
-from motionrt.locomotion.paths import Path
+from motionrt.locomotion.path import Path
 from motionrt.motion import Motion
 
 if TYPE_CHECKING:

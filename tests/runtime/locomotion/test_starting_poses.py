@@ -6,12 +6,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from fake_players import FPS, FakePlayers
+from fake_character_models import FPS, FakeCharacterModels
 from motions import random_motion, standing
 
 from motionrt.errors import InvalidInputError
 from motionrt.formats.motion_pack import MotionPack
-from motionrt.locomotion import poses
+from motionrt.locomotion import starting_poses as poses
 from motionrt.locomotion.bearings import facing_of, over_feet, place_of
 from motionrt.locomotion.holding import hold
 from motionrt.motion import SMPL24
@@ -73,4 +73,4 @@ def test_stride_and_standing_come_from_the_asset(tmp_path: Path, monkeypatch: py
 
 
 def test_somebody_who_stands_is_over_their_feet() -> None:
-    assert over_feet(FakePlayers().standing) == pytest.approx((0, 0), abs=0.08)
+    assert over_feet(FakeCharacterModels().standing) == pytest.approx((0, 0), abs=0.08)

@@ -13,7 +13,7 @@ from motionrt.motion.rotations import Array
 RADIUS = 0.4  # metres within which a waypoint counts as reached
 
 
-class Routes:
+class WaypointTargets:
     """The waypoints of ``B`` characters, and how far each has come.
 
     A waypoint is left behind when the character is within ``radius`` of it; one that was missed is walked back to. The

@@ -1,4 +1,4 @@
-"""The roads through motionrt that are measured, the models that each needs, and what is called."""
+"""All benchmarks: the models that each needs, its cases, and what is called for them."""
 
 from __future__ import annotations
 
@@ -33,8 +33,8 @@ SCRIPT = (
 
 
 @dataclass(frozen=True)
-class Road:
-    """A road: the models that it needs, its cases by name, and whether it is gone only when somebody asks for it."""
+class Benchmark:
+    """The models that a benchmark needs, its cases by name, and whether it runs only when it is asked for."""
 
     models: tuple[str, ...]
     cases: Callable[[Setting], Mapping[str, Case]]
@@ -84,7 +84,7 @@ def _parts(setting: Setting) -> Mapping[str, Case]:
 
 
 def _walk(setting: Setting) -> Mapping[str, Case]:
-    inputs, model = setting.work.moves, setting.players.walk
+    inputs, model = setting.work.moves, setting.character_models.walk
     cases = {moves.walk_case(n): Case(moves.walk_call(model, inputs, n), n) for n in moves.CROWDS}
     if setting.threads > 1:
         each = WalkModel(Sessions(setting.models, threads=1), setting.variant)
@@ -94,11 +94,11 @@ def _walk(setting: Setting) -> Mapping[str, Case]:
 
 
 def _transition(setting: Setting) -> Mapping[str, Case]:
-    return {moves.TRANSITION: Case(moves.transition_call(setting.players.infill, setting.work.moves))}
+    return {moves.TRANSITION: Case(moves.transition_call(setting.character_models.infill, setting.work.moves))}
 
 
 def _pose(setting: Setting) -> Mapping[str, Case]:
-    return {moves.POSE: Case(moves.pose_call(setting.players.prior, setting.work.moves))}
+    return {moves.POSE: Case(moves.pose_call(setting.character_models.prior, setting.work.moves))}
 
 
 def _perform(setting: Setting) -> Mapping[str, Case]:
@@ -127,34 +127,38 @@ def _models(setting: Setting) -> Mapping[str, Case]:
     return found
 
 
-ROADS: Mapping[str, Road] = {
-    "text": Road((TMR_TEXT,), _text),
-    "motion": Road((TMR_MOTION,), _motion),
-    "search": Road((), _search),
-    "retrieve": Road((TMR_TEXT, TMR_MOTION), _retrieve),
-    "approximate": Road((), _approximate, on_request=True),
-    "gallery": Road((TMR_MOTION,), _gallery),
-    "generate": Road((TMR_TEXT, TEMOS_TEXT, DECODER, DENOISER), _generate),
-    "decode": Road((DECODER,), _decode),
-    "compose": Road((), _compose),
-    "parts": Road((), _parts),
-    "walk": Road((WALKNET,), _walk),
-    "transition": Road((TRANSNET,), _transition),
-    "pose": Road((POSE_PRIOR,), _pose),
-    "perform": Road((WALKNET, TRANSNET, POSE_PRIOR), _perform),
-    "files": Road((), _files),
-    "models": Road((), _models),
-    COLD: Road((TMR_TEXT, TMR_MOTION), lambda _: {}),
+BENCHMARKS: Mapping[str, Benchmark] = {
+    "text": Benchmark((TMR_TEXT,), _text),
+    "motion": Benchmark((TMR_MOTION,), _motion),
+    "search": Benchmark((), _search),
+    "retrieve": Benchmark((TMR_TEXT, TMR_MOTION), _retrieve),
+    "approximate": Benchmark((), _approximate, on_request=True),
+    "gallery": Benchmark((TMR_MOTION,), _gallery),
+    "generate": Benchmark((TMR_TEXT, TEMOS_TEXT, DECODER, DENOISER), _generate),
+    "decode": Benchmark((DECODER,), _decode),
+    "compose": Benchmark((), _compose),
+    "parts": Benchmark((), _parts),
+    "walk": Benchmark((WALKNET,), _walk),
+    "transition": Benchmark((TRANSNET,), _transition),
+    "pose": Benchmark((POSE_PRIOR,), _pose),
+    "perform": Benchmark((WALKNET, TRANSNET, POSE_PRIOR), _perform),
+    "files": Benchmark((), _files),
+    "models": Benchmark((), _models),
+    COLD: Benchmark((TMR_TEXT, TMR_MOTION), lambda _: {}),
 }
-"""All roads, in the order in which they are shown."""
+"""All benchmarks, in the order in which they are shown."""
 
 
-def chosen(only: Sequence[str] | None) -> dict[str, Road]:
-    """The roads of these names, or all that need not be asked for.
+def chosen(only: Sequence[str] | None) -> dict[str, Benchmark]:
+    """The benchmarks of these names, or all that need not be asked for.
 
     Raises:
         InvalidInputError: a name that is none.
     """
-    if unknown := [name for name in only or () if name not in ROADS]:
-        raise InvalidInputError(f"no road is called {', '.join(unknown)}; choose from: {', '.join(ROADS)}")
-    return {name: road for name, road in ROADS.items() if (not road.on_request if only is None else name in only)}
+    if unknown := [name for name in only or () if name not in BENCHMARKS]:
+        raise InvalidInputError(f"no benchmark is called {', '.join(unknown)}; choose from: {', '.join(BENCHMARKS)}")
+    return {
+        name: benchmark
+        for name, benchmark in BENCHMARKS.items()
+        if (not benchmark.on_request if only is None else name in only)
+    }

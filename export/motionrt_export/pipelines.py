@@ -132,8 +132,8 @@ def performed(ours: Performance, theirs: Performance) -> dict[str, float]:
     }
 
 
-Road = Callable[[Runtime], Figures]
-ROADS: dict[str, type[CompositionDrift | PerformanceDrift]] = {
+Pipeline = Callable[[Runtime], Figures]
+PIPELINES: dict[str, type[CompositionDrift | PerformanceDrift]] = {
     drift.name: drift for drift in (CompositionDrift, PerformanceDrift)
 }
-"""The roads by name; the manifest has their figures at the model that owns them."""
+"""The pipelines by name; the manifest has their figures at the model that owns them."""

@@ -13,13 +13,13 @@ import pytest
 pytest.importorskip("torch", reason="torch is not installed; the export extra brings it")
 pytest.importorskip("onnx", reason="onnx is not installed; the export extra brings it")
 
-from fake_players import FakePlayers
+from fake_character_models import FakeCharacterModels
 from tiny_nets import tiny_sources
 
 from motionrt import Motion, Runtime
 from motionrt_export.measures import beyond
-from motionrt_export.roads import ARMS, LEGS, SCRIPT, CompositionDrift, PerformanceDrift, performed
-from motionrt_export.tolerances import ROADS, road_tolerance
+from motionrt_export.pipelines import ARMS, LEGS, SCRIPT, CompositionDrift, PerformanceDrift, performed
+from motionrt_export.tolerances import PIPELINES, pipeline_tolerance
 from motionrt_export.torch_runtime import TorchRuntime
 
 SHORT = """
@@ -35,24 +35,24 @@ steps:
 
 
 class Moved(Runtime):
-    """Players that have learned nothing, with an offset to every frame of a walk."""
+    """CharacterModels that have learned nothing, with an offset to every frame of a walk."""
 
     def __init__(self, aside: float = 0.0) -> None:
         super().__init__()
         self.aside = aside
 
     @property
-    def players(self) -> Any:  # type: ignore[override]
-        players = FakePlayers()
-        step = players.walk
+    def character_models(self) -> Any:  # type: ignore[override]
+        character_models = FakeCharacterModels()
+        step = character_models.walk
 
         def walk(frames: np.ndarray, speed: np.ndarray) -> np.ndarray:
             made = step(frames, speed).copy()
             made[:, 216] += self.aside
             return made
 
-        players.walk = walk
-        return players
+        character_models.walk = walk
+        return character_models
 
 
 @pytest.fixture(scope="module")
@@ -69,7 +69,7 @@ def runtime(tmp_path_factory: pytest.TempPathFactory) -> TorchRuntime:
 
 def test_a_performance_beside_itself_is_equal(script: Path) -> None:
     figures = PerformanceDrift(Moved(), script=script)(Moved())
-    assert beyond(figures, road_tolerance("performance", "fp32")) == []
+    assert beyond(figures, pipeline_tolerance("performance", "fp32")) == []
     assert figures["performance"]["end_cm"] == 0.0
     assert {key for key, value in figures["performance"].items() if value == 1.0} >= {
         "seconds_ratio", "path_deviation_ratio", "foot_skate_ratio", "keypoint_ratio",
@@ -78,7 +78,7 @@ def test_a_performance_beside_itself_is_equal(script: Path) -> None:
 
 def test_a_walk_that_is_pushed_aside_is_beyond_the_tolerance(script: Path) -> None:
     figures = PerformanceDrift(Moved(), script=script)(Moved(aside=0.02))
-    broken = beyond(figures, road_tolerance("performance", "int8"))
+    broken = beyond(figures, pipeline_tolerance("performance", "int8"))
     assert any("path_deviation_ratio" in words for words in broken)
 
 
@@ -106,7 +106,7 @@ def test_a_text_that_is_made_otherwise_is_beyond_the_tolerance(runtime: TorchRun
 
     lifted = Lifted(runtime._sources)
     figures = CompositionDrift(runtime, count=1, seconds=0.7)(lifted)
-    assert any("joints_cm" in words for words in beyond(figures, road_tolerance("composition", "int8")))
+    assert any("joints_cm" in words for words in beyond(figures, pipeline_tolerance("composition", "int8")))
 
 
 def test_two_hundred_compositions_are_two_hundred_pairs_of_texts() -> None:
@@ -129,8 +129,8 @@ def test_two_hundred_compositions_are_two_hundred_pairs_of_texts() -> None:
     assert len(asked) == 400
 
 
-def test_the_script_is_there_and_every_road_has_a_tolerance() -> None:
+def test_the_script_is_there_and_every_pipeline_has_a_tolerance() -> None:
     assert SCRIPT.is_file()
-    for road, by_variant in ROADS.items():
+    for pipeline, by_variant in PIPELINES.items():
         assert set(by_variant) == {"fp32", "int8"}
-        assert road_tolerance(road, "fp16") == by_variant["fp32"]
+        assert pipeline_tolerance(pipeline, "fp16") == by_variant["fp32"]

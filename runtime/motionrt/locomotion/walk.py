@@ -10,13 +10,13 @@ from pathlib import Path as FilePath
 import numpy as np
 
 from motionrt.errors import InvalidInputError
+from motionrt.locomotion.arguments import PathLikes, StartLike, as_path, as_place, as_start
 from motionrt.locomotion.bearings import Place, apart, heading_along, place_of
 from motionrt.locomotion.character import Character, Planner
-from motionrt.locomotion.given import PathLikes, StartLike, as_path, as_place, as_start
+from motionrt.locomotion.character_models import CharacterModels
 from motionrt.locomotion.goal_frame import Goal
-from motionrt.locomotion.journey import Pace, Progress, walk_together
-from motionrt.locomotion.paths import Path, Waypoints
-from motionrt.locomotion.players import Players
+from motionrt.locomotion.path import Path, Waypoints
+from motionrt.locomotion.path_following import Pace, Progress, walk_together
 from motionrt.locomotion.terrain import Heights, on_plane
 from motionrt.metrics.walk_report import LocomotionMeasures
 from motionrt.motion import Motion
@@ -59,7 +59,7 @@ class Walk:
 
 
 @dataclass(frozen=True, eq=False)
-class Errand:
+class WalkRequest:
     """Where a character is, and where it shall walk.
 
     Attributes:
@@ -73,13 +73,13 @@ class Errand:
     heading: float | None = None
 
 
-def errand(
+def walk_request(
     start: StartLike | None,
     to: Sequence[float] | None = None,
     path: PathLikes | None = None,
     heading: float | None = None,
     scene: Planner | None = None,
-) -> Errand:
+) -> WalkRequest:
     """What somebody asks for: a walk to a place, or along a path.
 
     Raises:
@@ -91,12 +91,12 @@ def errand(
     given = as_path(path) if path is not None else None
     here = _place(as_start(start, given))
     found = given if given is not None else _way(here, as_place(to or (), "where to walk to"), scene)
-    return Errand(as_start(start, found), found, heading)
+    return WalkRequest(as_start(start, found), found, heading)
 
 
-def run_errands(
-    players: Players,
-    errands: Sequence[Errand],
+def run_walks(
+    models: CharacterModels,
+    requests: Sequence[WalkRequest],
     scene: Planner | None = None,
     *,
     pace: Pace | None = None,
@@ -105,11 +105,11 @@ def run_errands(
     seed: int = 0,
     progress: Progress | None = None,
 ) -> list[Walk]:
-    """Let every character run its errand; all walk together, one call of the model per frame.
+    """Let every character walk as asked; all walk together, one call of the model per frame.
 
     Args:
-        players: the models.
-        errands: one for each character.
+        models: the models.
+        requests: one for each character.
         scene: finds the way to a path that begins elsewhere.
         pace: how they walk.
         stop: stand at the end; otherwise end in stride.
@@ -118,21 +118,21 @@ def run_errands(
         progress: told how many metres of how many are walked.
     """
     pace = pace or Pace()
-    characters = [Character(players, each.start, scene, pace, seed + i) for i, each in enumerate(errands)]
-    ways = [who.way_along(each.path) for who, each in zip(characters, errands, strict=True)]
+    characters = [Character(models, each.start, scene, pace, seed + i) for i, each in enumerate(requests)]
+    ways = [who.way_along(each.path) for who, each in zip(characters, requests, strict=True)]
     until = characters[0].braking if stop else 0.0
     left = [who.leave(way, _NAME, until) for who, way in zip(characters, ways, strict=True)]
-    _walk_rest(players, characters, left, pace.before_end(until), progress)
+    _walk_rest(models, characters, left, pace.before_end(until), progress)
     if stop:
-        for who, way, each in zip(characters, ways, errands, strict=True):
+        for who, way, each in zip(characters, ways, requests, strict=True):
             x, z = way.points[-1]
             facing = heading_along(way, way.length) if each.heading is None else each.heading
             who.stop((float(x), float(z)), facing, _NAME)
-    return [_walk_of(who, each, pace, foot_lock) for who, each in zip(characters, errands, strict=True)]
+    return [_walk_of(who, each, pace, foot_lock) for who, each in zip(characters, requests, strict=True)]
 
 
 def _walk_rest(
-    players: Players,
+    models: CharacterModels,
     characters: Sequence[Character],
     left: Sequence[Path | None],
     pace: Pace,
@@ -143,12 +143,12 @@ def _walk_rest(
     if not going:
         return
     paths = [rest for _, rest in going]
-    motions = walk_together(players.walk, [who.tail for who, _ in going], paths, pace, progress)
+    motions = walk_together(models.walk, [who.tail for who, _ in going], paths, pace, progress)
     for (who, rest), motion in zip(going, motions, strict=True):
         who.walked(motion, rest, _NAME)
 
 
-def _walk_of(who: Character, asked: Errand, pace: Pace, foot_lock: bool) -> Walk:
+def _walk_of(who: Character, asked: WalkRequest, pace: Pace, foot_lock: bool) -> Walk:
     done = who.performance(foot_lock=foot_lock)
     return Walk(done.motion, asked.path, asked.path.waypoints(pace.spacing), pace.radius, done.ground)
 

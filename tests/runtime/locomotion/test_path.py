@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from motionrt.errors import FormatError, InvalidInputError, MotionFileNotFoundError
-from motionrt.locomotion.paths import Path
+from motionrt.locomotion.path import Path
 
 ELL = np.array([[0, 0], [0, 3], [4, 3]], dtype=np.float32)  # 3 m ahead (+Z), then 4 m to the left (+X)
 POLYLINES = arrays(np.float32, st.tuples(st.integers(2, 12), st.just(2)), elements=st.integers(-20, 20))

@@ -6,11 +6,11 @@ from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Protocol
 
-from motionrt.locomotion import poses
+from motionrt.locomotion import starting_poses
+from motionrt.locomotion.crowd import NextFrame
 from motionrt.locomotion.goal_frame import Goal
 from motionrt.locomotion.holding import hold
 from motionrt.locomotion.transitions import transition
-from motionrt.locomotion.walking import NextFrame
 from motionrt.models.transnet import TransitionModel
 from motionrt.models.walknet import WalkModel
 from motionrt.motion import Motion
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 TOLERANCE_CM = 5.0  # of keypoints
 
 
-class Players(Protocol):
+class CharacterModels(Protocol):
     """What a performance needs of models."""
 
     @property
@@ -56,7 +56,7 @@ class Players(Protocol):
         """The pose that meets keypoints; see :func:`motionrt.locomotion.posing.solve_pose`."""
 
 
-class ModelPlayers:
+class OnnxCharacterModels:
     """The shipped models; each opens when it is first needed.
 
     Args:
@@ -87,12 +87,12 @@ class ModelPlayers:
     @cached_property
     def standing(self) -> Motion:
         """One frame: stands at the origin, facing +Z; that of the asset, or else one that the pose prior gives."""
-        return poses.standing() or poses.solved_standing(self.prior)
+        return starting_poses.standing() or starting_poses.solved_standing(self.prior)
 
     @cached_property
     def stride(self) -> Motion:
         """Frames of a steady walk; the last one above the origin, heading +Z."""
-        return poses.stride()
+        return starting_poses.stride()
 
     def transition(self, seed: Motion, target: Motion, goal: Goal | None = None, *, held: bool = False) -> Motion:
         """See :func:`motionrt.locomotion.transitions.transition`."""

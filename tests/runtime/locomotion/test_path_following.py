@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from fake_players import FPS, stays, towards_goal
+from fake_character_models import FPS, stays, towards_goal
 from motions import walking
 
 from motionrt.errors import InvalidInputError, WalkError
 from motionrt.locomotion.goal_frame import Goal, uncanonicalise
-from motionrt.locomotion.journey import PATIENCE_S, Pace, walk, walk_together
-from motionrt.locomotion.paths import Path
-from motionrt.locomotion.poses import stride_of
+from motionrt.locomotion.path import Path
+from motionrt.locomotion.path_following import PATIENCE_S, Pace, walk, walk_together
+from motionrt.locomotion.starting_poses import stride_of
 from motionrt.metrics import waypoints_reached
 
 STRIDE = stride_of(walking(40, FPS))

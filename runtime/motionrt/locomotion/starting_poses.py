@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from motionrt.locomotion.crowd import FPS, SPEED
 from motionrt.locomotion.goal_frame import Goal, canonicalise
-from motionrt.locomotion.walking import FPS, SPEED
 from motionrt.motion import SMPL24, Motion
 from motionrt.motion.rotations import axis_rotation
 from motionrt.motion.transforms import grounded, heading

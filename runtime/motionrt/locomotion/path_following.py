@@ -1,4 +1,4 @@
-"""Walks along paths, from a start to an end: the loop around :class:`motionrt.locomotion.walking.Crowd`."""
+"""Walks along paths, from a start to an end: the loop around :class:`motionrt.locomotion.crowd.Crowd`."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ import numpy as np
 import numpy.typing as npt
 
 from motionrt.errors import InvalidInputError, WalkError
-from motionrt.locomotion.paths import Path
-from motionrt.locomotion.route import RADIUS, Routes
-from motionrt.locomotion.walking import FPS, SPEED, Crowd, NextFrame, history_of, to_motion
+from motionrt.locomotion.crowd import FPS, SPEED, Crowd, NextFrame, history_of, to_motion
+from motionrt.locomotion.path import Path
+from motionrt.locomotion.waypoints import RADIUS, WaypointTargets
 from motionrt.motion import Motion
 
 SPACING = 1.0  # metres between waypoints
@@ -104,7 +104,7 @@ class _Trip:
     def __init__(self, path: Path, pace: Pace, place: npt.NDArray[np.floating]) -> None:
         marks = path.waypoints(pace.spacing)
         self.pace, self.path = pace, path
-        self.routes = Routes([np.column_stack([marks.positions, marks.headings])], pace.radius)
+        self.routes = WaypointTargets([np.column_stack([marks.positions, marks.headings])], pace.radius)
         self.end = path.at(path.length)
         self.frames: list[npt.NDArray[np.float64]] = []
         self.goal = self.routes.goals(place[None])[0]

@@ -13,7 +13,7 @@ from scipy.spatial.transform import Rotation, Slerp
 from motionrt.errors import ReachError
 from motionrt.locomotion.goal_frame import Goal
 from motionrt.locomotion.holding import hold
-from motionrt.locomotion.poses import stride_of
+from motionrt.locomotion.starting_poses import stride_of
 from motionrt.locomotion.transitions import placed
 from motionrt.motion import SMPL24, Motion
 
@@ -37,7 +37,7 @@ def stays(frames: np.ndarray, speed: np.ndarray) -> np.ndarray:
     return frames[:, -1]
 
 
-class FakePlayers:
+class FakeCharacterModels:
     """Walks straight to goals; transitions are slerps; a pose is the rest pose moved so that its pelvis or feet fit."""
 
     def __init__(self, walk: Any = towards_goal) -> None:

@@ -7,19 +7,19 @@ from collections.abc import Sequence
 import numpy as np
 
 from motionrt.errors import InvalidInputError
-from motionrt.locomotion.given import as_goal
+from motionrt.locomotion.arguments import as_goal
+from motionrt.locomotion.character_models import CharacterModels
+from motionrt.locomotion.crowd import Crowd, history_of
 from motionrt.locomotion.goal_frame import Goal, uncanonicalise
-from motionrt.locomotion.players import Players
-from motionrt.locomotion.walking import Crowd, history_of
 
 ABREAST = 1.2  # metres between neighbours
 
 
-def crowd(players: Players, starts: int | Sequence[Goal | Sequence[float]]) -> Crowd:
+def crowd(models: CharacterModels, starts: int | Sequence[Goal | Sequence[float]]) -> Crowd:
     """Characters in mid-stride.
 
     Args:
-        players: the models.
+        models: the models.
         starts: where each is and which way it walks, (x, z, heading); or how many, who then walk abreast along +Z.
 
     Raises:
@@ -28,7 +28,7 @@ def crowd(players: Players, starts: int | Sequence[Goal | Sequence[float]]) -> C
     goals = [as_goal(start) for start in (_abreast(starts) if isinstance(starts, int) else starts)]
     if not goals:
         raise InvalidInputError("a crowd needs at least one character")
-    return Crowd(players.walk, np.stack([history_of(uncanonicalise(players.stride, goal)) for goal in goals]))
+    return Crowd(models.walk, np.stack([history_of(uncanonicalise(models.stride, goal)) for goal in goals]))
 
 
 def _abreast(count: int) -> list[Sequence[float]]:
