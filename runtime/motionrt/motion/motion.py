@@ -11,9 +11,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from motionrt.errors import InvalidInputError
-from motionrt.motion import transforms
+from motionrt.motion import checks, transforms
 from motionrt.motion.kinematics import fk
 from motionrt.motion.skeleton import SMPL24, FloatArray, Skeleton
+from motionrt.untrusted.words import shown
 
 if TYPE_CHECKING:
     from motionrt.rigs.target import Rig, RigMotion
@@ -32,7 +33,8 @@ class Motion:
         skeleton: the joint tree, ``smpl24`` unless said otherwise.
 
     Raises:
-        InvalidInputError: wrong shapes, no frames, numbers that are not finite, or a frame rate that is not positive.
+        InvalidInputError: wrong shapes, no frames, numbers that are not finite, matrices that are no rotations, a place
+            or a frame rate out of range (:mod:`motionrt.limits`).
     """
 
     rotations: FloatArray
@@ -41,15 +43,17 @@ class Motion:
     skeleton: Skeleton = SMPL24
 
     def __post_init__(self) -> None:
-        rotations = _frozen(self.rotations, "rotations", (len(self.skeleton), 3, 3))
-        root = _frozen(self.root, "root", (3,))
+        if not isinstance(self.skeleton, Skeleton):
+            raise InvalidInputError(f"skeleton must be a Skeleton, not {shown(self.skeleton)}")
+        rotations = checks.frozen(self.rotations, "rotations", (len(self.skeleton), 3, 3))
+        root = checks.frozen(self.root, "root", (3,))
         if len(rotations) != len(root):
             raise InvalidInputError(f"rotations have {len(rotations)} frames but root has {len(root)}")
-        if not (np.isfinite(self.fps) and self.fps > 0):
-            raise InvalidInputError(f"fps must be a positive number, not {self.fps}")
+        checks.check_rotations(rotations, self.skeleton.names)
+        checks.check_root(root)
         object.__setattr__(self, "rotations", rotations)
         object.__setattr__(self, "root", root)
-        object.__setattr__(self, "fps", float(self.fps))
+        object.__setattr__(self, "fps", checks.checked_fps(self.fps))
 
     def __repr__(self) -> str:
         return f"Motion({self.frames} frames, {self.duration:.2f} s at {self.fps:g} fps, {len(self.skeleton)} joints)"
@@ -146,16 +150,3 @@ class Motion:
 
         target = load_target(rig) if isinstance(rig, str | Path) else rig
         return to_rig(self, target, mapping=mapping, root_motion=root_motion)
-
-
-def _frozen(array: FloatArray, name: str, shape: tuple[int, ...]) -> FloatArray:
-    """A read-only float32 copy of ``array`` with ``shape`` behind its frame axis."""
-    out = np.array(array, dtype=np.float32)
-    if out.shape[1:] != shape or out.ndim != len(shape) + 1 or not len(out):
-        expected = ", ".join(map(str, shape))
-        raise InvalidInputError(f"{name} must have the shape (frames >= 1, {expected}), not {out.shape}")
-    if not np.isfinite(out).all():
-        bad = int(np.argmin(np.isfinite(out).reshape(len(out), -1).all(axis=1)))
-        raise InvalidInputError(f"{name} holds a number that is not finite, first in frame {bad}")
-    out.setflags(write=False)
-    return out

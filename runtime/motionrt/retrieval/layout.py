@@ -14,7 +14,10 @@ import numpy.typing as npt
 from motionrt.motion.skeleton import FloatArray
 from motionrt.retrieval import store
 from motionrt.retrieval.contents import Contents
-from motionrt.retrieval.records import WINDOW_TYPE, Clip, ModelStamp, Skipped, WindowTable
+from motionrt.retrieval.head import array_files, clips_of, mapping_of, model_of, skipped_of, source_of
+from motionrt.retrieval.records import WINDOW_TYPE, WindowTable
+
+_CHECKED = 256 * 2**20  # bytes of embeddings that are checked at the first search
 
 
 def save(gallery: Contents, folder: Path) -> None:
@@ -41,25 +44,46 @@ def read(folder: Path) -> Contents:
         raise store.damaged(folder, f"no file {error.filename}") from error
 
 
+def verify(folder: Path) -> dict[str, str]:
+    """Check every array of a gallery against its checksum, and what the motions say; returns the files by role."""
+    head = store.read_head(folder)
+    files = array_files(head.get("files"), store.fails(folder / store.GALLERY_FILE))
+    store.verify(folder, files)
+    contents = _assembled(folder, head)
+    if contents.pack is not None and len(contents.pack) != len(contents.clips):
+        raise store.damaged(folder, "it holds another number of motions than of clips")
+    return files
+
+
+def check_embeddings(contents: Contents) -> None:
+    """GalleryError if the embeddings on disk are damaged; those beyond 256 MiB are left to :func:`verify`."""
+    mapped = contents.embeddings.base
+    if not isinstance(mapped, np.memmap) or contents.folder is None or contents.embeddings.nbytes > _CHECKED:
+        return
+    name = Path(str(mapped.filename)).name
+    if (contents.folder / name).is_file():  # otherwise another process has replaced the gallery: this one is mapped
+        store.verify(contents.folder, {"embeddings": name})
+
+
 def _assembled(folder: Path, head: dict[str, Any]) -> Contents:
-    try:
-        contents = _read(folder, head)
-    except (KeyError, TypeError, AttributeError) as error:
-        raise store.damaged(folder / store.GALLERY_FILE, f"{type(error).__name__}: {error}") from error
+    contents = _read(folder, head)
     _check(contents.embeddings, contents.windows, len(contents.clips), folder)
     return contents
 
 
 def _read(folder: Path, head: dict[str, Any]) -> Contents:
-    files = head["files"]
+    fail = store.fails(folder / store.GALLERY_FILE)
+    files = array_files(head.get("files"), fail)
+    if (folder / files["windows"]).is_file():  # small; the others are checked when they are first used
+        store.verify(folder, {"windows": files["windows"]})
     return Contents(
-        clips=tuple(Clip(**clip) for clip in head["clips"]),
+        clips=clips_of(head.get("clips"), fail),
         embeddings=store.read_array(folder, files["embeddings"]),
         windows=store.read_array(folder, files["windows"]),
-        model=ModelStamp(**head["model"]),
-        source=_source(folder, head["source"]),
-        skipped=tuple(Skipped(**skipped) for skipped in head["skipped"]),
-        mapping=head["mapping"],
+        model=model_of(head.get("model"), fail),
+        source=_source(folder, source_of(head.get("source"), fail)),
+        skipped=skipped_of(head.get("skipped"), fail),
+        mapping=mapping_of(head.get("mapping"), fail),
         motions=folder / files["motions"] if "motions" in files else None,
         folder=folder,
         neighbours=folder / store.neighbours_name(files["embeddings"]),
@@ -70,9 +94,14 @@ def _check(embeddings: FloatArray, windows: WindowTable, clips: int, folder: Pat
     """GalleryError unless every clip has windows, in order, and every window an embedding."""
     if embeddings.dtype != np.float32 or embeddings.ndim != 2 or windows.dtype != WINDOW_TYPE:
         raise store.damaged(folder, "an array has the wrong type")
-    owners = windows["clip"]
-    if len(embeddings) != len(windows) or not np.array_equal(np.unique(owners), np.arange(clips)):
+    if windows.ndim != 1 or len(embeddings) != len(windows) or not clips:
         raise store.damaged(folder, "clips, windows and embeddings do not fit together")
+    owners, start, end = windows["clip"], windows["start_s"], windows["end_s"]
+    if (np.diff(owners) < 0).any() or not np.array_equal(np.unique(owners), np.arange(clips)):
+        raise store.damaged(folder, "clips, windows and embeddings do not fit together")
+    with np.errstate(invalid="ignore"):
+        if not ((start >= 0) & (start <= end) & (end < np.inf)).all():
+            raise store.damaged(folder, "a window has no beginning or no end")
 
 
 def _head(gallery: Contents, folder: Path) -> dict[str, Any]:

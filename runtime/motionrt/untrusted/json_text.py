@@ -14,10 +14,10 @@ _BRACKETS = re.compile(rb'"[^"\\]*(?:\\.[^"\\]*)*"|[\[{]|[\]}]', re.DOTALL)
 _HALF = re.compile(rb"\\u[dD][89a-fA-F]")
 
 
-def parse(content: bytes, fail: Fail) -> Any:
+def parse(content: bytes, fail: Fail, limit: str = "json_bytes") -> Any:
     """The value of a JSON text in UTF-8, with or without a byte order mark; NaN and infinities are refused."""
-    if len(content) > limits().json_bytes:
-        raise fail(f"holds {len(content):,} bytes of JSON: {how_to_raise('json_bytes')}", None)
+    if len(content) > getattr(limits(), limit):
+        raise fail(f"holds {len(content):,} bytes of JSON: {how_to_raise(limit)}", None)
     _check_nesting(content, fail)
     try:
         value = json.loads(content.decode("utf-8-sig"), parse_constant=_refused)

@@ -42,8 +42,8 @@ BROKEN = (
 _MEMBERS, _NAME, _HEADER = 10_000, 200, 10_000
 
 
-def read_npz(path: Path, fail: Fail, names: Collection[str] | None = None) -> Arrays:
-    """The arrays of an npz file by name, or those of ``names`` that it has; objects are refused.
+def read_arrays(path: Path, fail: Fail, names: Collection[str] | None = None) -> tuple[Arrays, list[str]]:
+    """The arrays of an npz file, or those of ``names`` that it has, and the names of all; objects are refused.
 
     FileNotFoundError stays what it is: the caller says it in its own words.
     """
@@ -53,7 +53,8 @@ def read_npz(path: Path, fail: Fail, names: Collection[str] | None = None) -> Ar
             members = archive.infolist()
             _check_members(members, most_unpacked(path), fail)
             wanted = [m for m in members if names is None or m.filename.removesuffix(".npy") in names]
-            return {m.filename.removesuffix(".npy"): _array(archive, m, fail) for m in wanted}
+            arrays = {m.filename.removesuffix(".npy"): _array(archive, m, fail) for m in wanted}
+            return arrays, [m.filename.removesuffix(".npy") for m in members]
     except (MotionRTError, FileNotFoundError):
         raise
     except BROKEN as error:
@@ -86,7 +87,7 @@ def most_unpacked(path: Path) -> int:
 
 def _claimed(shape: tuple[int, ...], dtype: np.dtype[Any], fail: Fail) -> int:
     if dtype.hasobject:
-        raise fail("holds Python objects, which are not read", None)
+        raise fail("holds pickled objects, which are never loaded", None)
     if any(not 0 <= side < 2**62 for side in shape):
         raise fail("holds an array of an impossible shape", None)
     return math.prod(shape) * dtype.itemsize

@@ -12,7 +12,7 @@ from motionrt.errors import FormatError, InvalidInputError, MotionFileNotFoundEr
 from motionrt.locomotion.words.cloud import SemanticCloud
 from motionrt.locomotion.words.ply import read_ply
 from motionrt.untrusted.files import as_path, check_file, read_utf8
-from motionrt.untrusted.npz import read_npz
+from motionrt.untrusted.npz import read_arrays
 from motionrt.untrusted.words import shorten
 
 LABEL_COLUMNS = ("label", "class", "category", "semantic", "scalar_label")
@@ -88,7 +88,7 @@ def _row(path: Path, line: int, row: dict[str, str]) -> tuple[list[float], str]:
 
 
 def _npz(path: Path, names: dict[int, str] | None) -> SemanticCloud:
-    arrays = read_npz(path, lambda reason, line: FormatError(path, reason, line))
+    arrays, _ = read_arrays(path, lambda reason, line: FormatError(path, reason, line))
     if not {"points", "labels"} <= arrays.keys():
         found = shorten(", ".join(arrays)) or "none"
         raise FormatError(path, f"needs arrays 'points' and 'labels', found: {found}")
