@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import os
 import stat
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from pathlib import Path
 
 from motionrt.errors import InvalidInputError
@@ -32,6 +35,34 @@ def as_path(path: object) -> Path:
     if "\0" in str(found):
         raise InvalidInputError(f"no file is called {shown(str(found))}: it has a NUL in it")
     return found
+
+
+_confined: ContextVar[Path | None] = ContextVar("motionrt_confined", default=None)
+
+
+@contextmanager
+def confined(folder: Path) -> Iterator[None]:
+    """While this holds, files may only name files of one folder, by their plain names: see :func:`beside`."""
+    token = _confined.set(folder)
+    try:
+        yield
+    finally:
+        _confined.reset(token)
+
+
+def beside(folder: Path, name: str, fail: Fail) -> Path:
+    """The path of a file that another file names, relative to its folder.
+
+    Whether it exists is not said where only uploaded files may be named: everything else is refused alike.
+    """
+    if "\0" in name:
+        raise fail("names a file with a NUL in its name", None)
+    only = _confined.get()
+    if only is None:
+        return folder / name
+    if Path(name).name != name or "\\" in name or ":" in name or not (only / name).is_file():
+        raise fail(f"names the file {shown(name)}, which was not uploaded; upload it first, by that name alone", None)
+    return only / name
 
 
 def check_file(path: Path, fail: Fail, limit: str = "file_bytes") -> int:

@@ -22,7 +22,7 @@ from motionrt.locomotion.scene.images import Grey, read_grey
 from motionrt.locomotion.scene.optional import require_scene_file
 from motionrt.motion.skeleton import FloatArray
 from motionrt.untrusted import yaml_text
-from motionrt.untrusted.files import read_utf8
+from motionrt.untrusted.files import beside, read_utf8
 from motionrt.untrusted.words import shown
 
 Mode = Literal["trinary", "scale", "raw"]
@@ -102,11 +102,11 @@ def _info(fields: dict[str, Any], path: Path) -> MapInfo:
     if mode not in ("trinary", "scale", "raw"):
         raise SceneError(f"mode {shown(mode)} is none of trinary, scale, raw")
     image = fields["image"]
-    if not isinstance(image, str) or not image.strip() or "\0" in image:
+    if not isinstance(image, str) or not image.strip():
         raise SceneError(f"image must be the name of a picture, not {shown(image)}")
     x, y, yaw = (_number(value, "origin", "three finite numbers (x, y, yaw)") for value in origin)
     return MapInfo(
-        image=path.parent / image,
+        image=beside(path.parent, image, lambda reason, _: SceneError(reason)),
         resolution=_number(fields["resolution"], "resolution"),
         origin=(x, y, yaw),
         negate=bool(_number(fields.get("negate", 0), "negate")),
@@ -183,7 +183,7 @@ def map_info(path: Path, resolution: float | None) -> MapInfo:
     require_scene_file(path)
     if resolution is not None:
         return MapInfo(path, resolution)
-    for beside in (path.with_suffix(".yaml"), path.with_suffix(".yml")):
-        if beside.exists():
-            return read_map_info(beside)
+    for described in (path.with_suffix(".yaml"), path.with_suffix(".yml")):
+        if described.exists():
+            return read_map_info(described)
     raise SceneError(f"{path} has no YAML file beside it: give resolution= in metres per pixel")
