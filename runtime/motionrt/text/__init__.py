@@ -1,0 +1,27 @@
+"""What words say about motion: one parser for search, generation and labels, and the condition vector of both."""
+
+from __future__ import annotations
+
+from motionrt.text.parsing import parse_query
+from motionrt.text.query import ACTIONS, TextAttributes
+from motionrt.text.slots import (
+    SLOTS,
+    mirror_slots,
+    sideless_slots,
+    slots_of_motion,
+    slots_of_text,
+)
+from motionrt.text.targets import TARGETS, attribute_targets
+
+__all__ = [
+    "ACTIONS",
+    "SLOTS",
+    "TARGETS",
+    "TextAttributes",
+    "attribute_targets",
+    "mirror_slots",
+    "parse_query",
+    "sideless_slots",
+    "slots_of_motion",
+    "slots_of_text",
+]

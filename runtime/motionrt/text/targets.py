@@ -1,0 +1,52 @@
+"""Numbers of what a motion does, scaled to about -1 to 1: what auxiliary regression heads learn."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from motionrt.motion.attributes import Attributes
+from motionrt.motion.skeleton import FloatArray
+
+_SCALED = {  # name -> (attributes, scale): tanh(attribute / scale)
+    "turn": ("turn", 120.0),
+    "path_bend": ("path_bend", 180.0),
+    "walk_forward": ("walk_forward", 2.0),
+    "walk_left": ("walk_left", 1.0),
+    "speed_mean": ("speed_mean", 2.0),
+    "spin_extent": ("spin_extent", 240.0),
+    "arm_dominance": ("arm_dominance", 0.4),
+    "leg_dominance": ("leg_dominance", 0.3),
+    "left_hand_up": ("left_hand_over_shoulder", 0.3),
+    "right_hand_up": ("right_hand_over_shoulder", 0.3),
+    "left_foot_lift": ("left_foot_lift", 0.4),
+    "right_foot_lift": ("right_foot_lift", 0.4),
+    "pelvis_start": ("pelvis_start", 1.0),
+    "pelvis_end": ("pelvis_end", 1.0),
+    "pelvis_lowest": ("pelvis_lowest", 1.0),
+    "jump_height": ("jump_height", 0.2),
+    "hands_speed": ("left_hand_speed", 1.0),
+    "feet_speed": ("left_foot_speed", 1.0),
+}
+TARGETS = tuple(_SCALED)
+"""Names of the numbers of :func:`attribute_targets`, in order."""
+
+
+def attribute_targets(attributes: Attributes) -> tuple[FloatArray, npt.NDArray[np.bool_]]:
+    """``(A,)`` float32 numbers named :data:`TARGETS`, and ``(A,)`` which of them mean something in this clip.
+
+    A turn or a path says nothing when somebody lies or stands on his head, a bend nothing without a path, and a side
+    that moves most nothing when no limb moves.
+    """
+    a = attributes
+    values = {name: getattr(a, source) for name, (source, _) in _SCALED.items()}
+    values["hands_speed"] = max(a.left_hand_speed, a.right_hand_speed)
+    values["feet_speed"] = max(a.left_foot_speed, a.right_foot_speed)
+    upright = min(a.pelvis_start, a.pelvis_end) > 0.5 and a.upside_down_share < 0.1
+    known = dict.fromkeys(TARGETS, True)
+    known |= dict.fromkeys(("turn", "spin_extent", "left_foot_lift", "right_foot_lift"), upright)
+    known["path_bend"] = a.path_length > 1.0
+    known["arm_dominance"] = a.left_hand_speed + a.right_hand_speed > 0.2
+    known["leg_dominance"] = a.left_foot_speed + a.right_foot_speed > 0.2
+    scaled = np.tanh([values[name] / scale for name, (_, scale) in _SCALED.items()])
+    return scaled.astype(np.float32), np.array([known[name] for name in TARGETS])
