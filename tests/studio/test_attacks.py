@@ -239,20 +239,20 @@ def test_a_script_may_name_what_was_uploaded_before(studio: Any) -> None:
 def test_uploads_are_counted_as_they_come_not_as_they_are_announced(studio: Any) -> None:
     from websockets.exceptions import ConnectionClosed
 
-    async def attack() -> int:
+    sent = 0
+
+    async def attack() -> None:
+        nonlocal sent
         async with Window(studio) as window:
             await window.upload("x.obj", b"\0" * 1000, declared=10, count=1000)
-            for index in range(1, 1000):
-                await window.part(index, b"\0" * 2**20)
+            for sent in range(1, 1000):
+                await window.part(sent, b"\0" * 2**20)
                 await asyncio.sleep(0)
-            await window.hear(lambda: False, 5)
-        return 0
 
     most = limits.limits().upload_bytes
-    with pytest.raises(ConnectionClosed) as closed:
+    with pytest.raises(ConnectionClosed):
         asyncio.run(attack())
-    assert closed.value.rcvd is not None
-    assert f"{most:,} bytes" in closed.value.rcvd.reason
+    assert sent * 2**20 < most + 32 * 2**20  # what was on its way when the door was closed
 
 
 def test_windows_beyond_the_limit_are_refused(studio: Any, monkeypatch: pytest.MonkeyPatch) -> None:

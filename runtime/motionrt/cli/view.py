@@ -14,7 +14,7 @@ LOOPBACK = ("127.0.0.1", "localhost", "::1")
 
 if TYPE_CHECKING:
     from motionrt.studio.serving import Page
-    from motionrt.studio.session import Show
+    from motionrt.studio.windows import Show
 
 HELP = """play motion files in the browser, one or several side by side
 Keys: P plays and pauses, J and K step, F frames everything. The page needs no network. Ctrl-C ends it."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections import defaultdict
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from motionrt.models.checks import verified
+from motionrt.models.engine import Providers, checked_providers, engine, open_session
 from motionrt.models.locate import find_manifest
 from motionrt.models.manifest import Manifest, Model, Variant
 from motionrt.models.reading import load_manifest
@@ -31,10 +32,11 @@ class Sessions:
         models: the manifest or its folder; None takes those that came with motionrt.
         threads: threads of every session, by default at most 2 of those that the process may use.
         session_options: options for every session, instead of ``threads``.
+        providers: onnxruntime's execution providers of every session, the preferred one first; by default the CPU.
 
     Raises:
         ModelFileError, ManifestError: no manifest, or a bad one.
-        InvalidInputError: ``threads`` is not a whole number above 0.
+        InvalidInputError: ``threads`` is not a whole number above 0, or ``providers`` is no list of providers.
     """
 
     def __init__(
@@ -43,7 +45,9 @@ class Sessions:
         *,
         threads: int | None = None,
         session_options: SessionOptions | None = None,
+        providers: Providers | None = None,
     ) -> None:
+        self.providers = checked_providers(providers)
         self.manifest: Manifest = load_manifest(find_manifest(models))
         self.threads = thread_count(threads)
         self._options = session_options
@@ -73,8 +77,7 @@ class Sessions:
 
     def prepare(self, *models: str, variant: str | None = None) -> None:
         """Start to open models in the background; what goes wrong is raised when their session is asked for."""
-        import onnxruntime  # noqa: F401  # once, before the threads ask for it together
-
+        engine()  # once, before the threads ask for it together
         for model in models:
             threading.Thread(target=self._try_to_open, args=(model, variant)).start()
 
@@ -90,41 +93,10 @@ class Sessions:
             self.session(model, variant)
 
     def _open_verified(self, chosen: Variant) -> InferenceSession:
-        """Open a file while it is hashed; a session is given once its file is known to be the right one."""
-        opening = Opening(lambda: self._open(self.manifest.locate(chosen.file)))
-        try:
-            verified(self.manifest, chosen)
-        finally:
-            opening.join()
-        return opening.result()
-
-    def _open(self, path: Path) -> InferenceSession:
-        import onnxruntime
-
+        """A session of the very bytes whose checksum is the right one."""
+        content = verified(self.manifest, chosen)
         options = self._options if self._options is not None else quiet_options(self.threads)
-        return onnxruntime.InferenceSession(str(path), options, providers=["CPUExecutionProvider"])
-
-
-class Opening(threading.Thread):
-    """A session on its way; `result` gives it, or raises what went wrong, when the thread has ended."""
-
-    def __init__(self, open_session: Callable[[], InferenceSession]) -> None:
-        super().__init__(name="motionrt-open", daemon=True)
-        self._open = open_session
-        self._found: list[InferenceSession | Exception] = []
-        self.start()
-
-    def run(self) -> None:
-        try:
-            self._found.append(self._open())
-        except Exception as error:  # noqa: BLE001  # it is raised to whoever asked for the session
-            self._found.append(error)
-
-    def result(self) -> InferenceSession:
-        found = self._found[0]
-        if isinstance(found, Exception):
-            raise found
-        return found
+        return open_session(content, options, self.providers)
 
 
 def quiet_options(threads: int) -> SessionOptions:
@@ -132,9 +104,7 @@ def quiet_options(threads: int) -> SessionOptions:
 
     Memory patterns are off: they are kept for every new length of input, and bring nothing here.
     """
-    import onnxruntime
-
-    options = onnxruntime.SessionOptions()
+    options: SessionOptions = engine().SessionOptions()
     options.intra_op_num_threads = threads
     options.inter_op_num_threads = 1
     options.enable_mem_pattern = False

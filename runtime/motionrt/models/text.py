@@ -93,7 +93,7 @@ def load_tokenizer(sessions: Sessions, model: str = MODEL) -> Tokenizer:
     info = sessions.model(model).tokenizer
     if info is None:
         raise ManifestError(f"{sessions.manifest.path}: model '{model}' names no tokenizer; export the models again")
-    tokenizer = Tokenizer.from_file(str(verified(sessions.manifest, info)))
+    tokenizer = Tokenizer.from_str(verified(sessions.manifest, info).decode("utf-8"))
     tokenizer.no_padding()
     tokenizer.enable_truncation(info.max_tokens)
     return tokenizer
