@@ -109,7 +109,7 @@ def text(path: Path) -> object:
     from motionrt.models.text import checked_text
     from motionrt.synthesis.parts import body_parts
 
-    words = path.read_bytes().decode("utf-8", "surrogatepass")
+    words = path.read_bytes().decode("utf-8", "surrogateescape")
     checked_text(words)
     body_parts(words)
     return parse_instruction(words)

@@ -34,11 +34,12 @@ class Frames:
         root = checks.frozen(self.root, "root", (3,))
         if len(rotations) != len(root):
             raise InvalidInputError(f"rotations have {len(rotations)} frames but root has {len(root)}")
+        fps = checks.checked_fps(self.fps)
         checks.check_rotations(rotations, self.skeleton.names)
         checks.check_root(root)
         object.__setattr__(self, "rotations", rotations)
         object.__setattr__(self, "root", root)
-        object.__setattr__(self, "fps", checks.checked_fps(self.fps))
+        object.__setattr__(self, "fps", fps)
 
     def __repr__(self) -> str:
         return f"Motion({self.frames} frames, {self.duration:.2f} s at {self.fps:g} fps, {len(self.skeleton)} joints)"

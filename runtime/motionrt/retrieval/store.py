@@ -18,7 +18,7 @@ import numpy as np
 import numpy.typing as npt
 
 from motionrt.errors import FormatError, GalleryError, GalleryNotFoundError
-from motionrt.retrieval.head import sealed, unsealed
+from motionrt.retrieval.head import check_seal, parsed, sealed
 from motionrt.untrusted import Fail
 from motionrt.untrusted.files import check_file, read_bytes
 from motionrt.untrusted.npz import read_npy
@@ -50,15 +50,17 @@ def read_head(folder: Path) -> dict[str, Any]:
     """The content of ``gallery.json``; GalleryError when it is damaged or of another version."""
     path = folder / GALLERY_FILE
     try:
-        head = unsealed(read_bytes(path, fails(path)), fails(path))
+        content = read_bytes(path, fails(path))
     except FileNotFoundError as error:
         raise damaged(path, "it is gone") from error
+    head = parsed(content, fails(path))
     if not isinstance(head, dict) or head.get("format") != FORMAT:
         raise damaged(path, "not a gallery of motionrt")
     if head.get("version") != VERSION:
         raise GalleryError(
             f"{path} has version {shown(head.get('version'))}, this motionrt reads version {VERSION}; build it again"
         )
+    check_seal(content, head, fails(path))
     return head
 
 

@@ -14,14 +14,21 @@ _BRACKETS = re.compile(rb'"[^"\\]*(?:\\.[^"\\]*)*"|[\[{]|[\]}]', re.DOTALL)
 _HALF = re.compile(rb"\\u[dD][89a-fA-F]")
 
 
-def parse(content: bytes, fail: Fail, limit: str = "json_bytes") -> Any:
-    """The value of a JSON text in UTF-8, with or without a byte order mark; NaN and infinities are refused."""
+def parse(content: bytes, fail: Fail, limit: str = "json_bytes", *, halves: bool = False) -> Any:
+    """The value of a JSON text in UTF-8, with or without a byte order mark; NaN and infinities are refused.
+
+    Args:
+        content: the text.
+        fail: makes the error.
+        limit: of its bytes.
+        halves: keep lone surrogates, which stand for the bytes of file names that are no Unicode.
+    """
     if len(content) > getattr(limits(), limit):
         raise fail(f"holds {len(content):,} bytes of JSON: {how_to_raise(limit)}", None)
     _check_nesting(content, fail)
     try:
         value = json.loads(content.decode("utf-8-sig"), parse_constant=_refused)
-        return _whole(value) if _HALF.search(content) else value
+        return _whole(value) if not halves and _HALF.search(content) else value
     except UnicodeDecodeError as error:
         raise fail(f"its JSON is not UTF-8 text ({error.reason})", None) from error
     except json.JSONDecodeError as error:
