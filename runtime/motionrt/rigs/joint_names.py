@@ -38,6 +38,7 @@ _SIDES = {
     **dict.fromkeys(("left", "l", "lft", "lf"), "left"),
     **dict.fromkeys(("right", "r", "rgt", "rt"), "right"),
 }
+_SIDE_SIGNS = {"左": "left", "右": "right"}
 _NOISE = {"bone", "joint", "jnt", "jt", "bend", "bind", "def", "sk", "skel", "c"}
 _HELPERS = frozenset(
     {
@@ -90,6 +91,11 @@ def read_joint_name(name: str) -> NameReading | None:
             if part is not None:
                 return NameReading(side, part, 100 * skipped + min(number, 99))
     return None
+
+
+def side_of(name: str) -> str:
+    """``"left"``, ``"right"`` or ``""``: the side that ``name`` states, whatever else it says."""
+    return _take_side(_words(name))[0] or next((side for sign, side in _SIDE_SIGNS.items() if sign in name), "")
 
 
 def _words(name: str) -> list[str]:

@@ -41,12 +41,18 @@ def roles_from_names(tree: RigTree, settled: Mapping[str, int]) -> dict[str, int
     return roles
 
 
+_INNER = frozenset({"pelvis", "hip", "hipjoint", "thigh", "leg", "shin", "clavicle", "shoulder", "upperarm", "forearm"})
+"""Parts that have others below them: a joint without any (a marker, a helper) is none of these."""
+
+
 def _read_all(tree: RigTree) -> Readings:
     readings: dict[tuple[str, str], list[tuple[int, int]]] = defaultdict(list)
     for joint, name in enumerate(tree.names):
         reading = read_joint_name(name)
-        if reading is not None:
+        if reading is not None and not (reading.part in _INNER and tree.is_last(joint)):
             readings[reading.side, reading.part].append((reading.doubt, joint))
+    for at, found in readings.items():
+        readings[at] = [one for one in found if not tree.is_last(one[1])] or found
     return readings
 
 
@@ -94,7 +100,7 @@ def _settle_hand(roles: dict[str, int], side: str, readings: Readings, tree: Rig
     wrist = roles.get(f"{side}_wrist")
     if f"{side}_hand" in roles or wrist is None:
         return
-    for part in ("middle", "fingers", "hand", "index"):
+    for part in ("middle", "hand", "fingers", "index"):
         for _, joint in sorted(readings.get((side, part), [])):
             if tree.is_above(wrist, joint) and tree.span(wrist, joint) > tree.negligible:
                 roles[f"{side}_hand"] = joint

@@ -1,12 +1,13 @@
 """Retargeting in: any humanoid rig's animation -> a :class:`Motion` of the canonical skeleton ``smpl24``.
 
-1. ``rig_stance`` understands the rig: ``rig_roles`` finds which joint plays which role (names, the user's
+1. ``stance`` understands the rig: ``roles`` finds which joint plays which role (names, the user's
    mapping, structure).
 2. A constant rotation per joint carries the rig's bone axes to those of ``smpl24``: from a known standing
-   pose (``rig_alignment``) or, where there is none, from the animation (``rig_calibration``).
-3. The limbs' directions are copied exactly (``rig_limbs``); trunk and neck of any length are resampled.
+   pose (``alignment``) or, where there is none, from the animation (``calibration``).
+   Pelvis and chest go by what hangs on them where their joints do not carry the body (``steady_trunk``).
+3. The limbs' directions are copied exactly (``limbs``); trunk and neck of any length are resampled.
 4. The hips follow the rig's hips, scaled by the ratio of the leg lengths, which makes the file's unit
-   irrelevant (``rig_placement``).
+   irrelevant (``placement``).
 """
 
 from __future__ import annotations
@@ -26,7 +27,11 @@ from motionrt.rigs.native import as_own_motion
 from motionrt.rigs.placement import place_root
 from motionrt.rigs.pose import RigPose
 from motionrt.rigs.repairs import settle_head, unroll_feet
+from motionrt.rigs.rest_bend import without_rest_bend
+from motionrt.rigs.roles import assign_roles
 from motionrt.rigs.stance import read_stance
+from motionrt.rigs.steady_trunk import with_steady_trunk
+from motionrt.rigs.tree import RigTree
 
 
 def to_smpl24(
@@ -55,8 +60,10 @@ def to_smpl24(
     if own is not None:
         return own
     poses = [clip.rest_rotations()] if reference is None else [reference, clip.rest_rotations()]
-    stance = read_stance(clip, mapping, poses)
-    motion, to_world = stance.motion, stance.to_world
+    roles = assign_roles(RigTree(clip), mapping)
+    clip = without_rest_bend(clip, roles, reference)
+    stance = read_stance(clip, mapping, poses, roles)
+    motion, to_world = with_steady_trunk(clip, stance), stance.to_world
     turned = to_world @ _follow(motion, stance.alignments)
     world = RigPose(motion.positions @ to_world.T, motion.rotations, stance.roles)
     swing_limbs(turned, world)

@@ -38,6 +38,11 @@ class RigRoles:
         """The same cast with left and right exchanged."""
         return RigRoles(_swapped(self.joints), self.spine, self.neck, True)
 
+    def swapped_arms(self) -> RigRoles:
+        """The same joints with the left and the right arm exchanged."""
+        arms = {role: joint for role, joint in self.joints.items() if role.endswith(("collar", "hand", *ARMS))}
+        return RigRoles({**self.joints, **_swapped(arms)}, self.spine, self.neck, self.sided)
+
 
 def _swapped(roles: Mapping[str, int]) -> dict[str, int]:
     names = SMPL24.names
@@ -58,8 +63,7 @@ def assign_roles(tree: RigTree, mapping: Mapping[str, str] | None) -> RigRoles:
     named = _completed(tree, roles_from_names(tree, given))
     sided = True
     if _missing(named) or _misplaced(tree, named):
-        named = _from_structure(tree, given, named)
-        sided = any("_" in role for role in given)
+        named, sided = _from_structure(tree, given, named)
     if "pelvis" not in given:
         _settle_pelvis(tree, named)
     spine, neck = _trunk(tree, named)
@@ -109,21 +113,37 @@ def _misplaced(tree: RigTree, roles: Mapping[str, int]) -> list[str]:
     return bad + [f"right_{part}" for part in LEGS + ARMS if roles[f"left_{part}"] == roles[f"right_{part}"]]
 
 
-def _from_structure(tree: RigTree, given: Mapping[str, int], named: Mapping[str, int]) -> dict[str, int]:
+def _from_structure(tree: RigTree, given: Mapping[str, int], named: Mapping[str, int]) -> tuple[dict[str, int], bool]:
+    """Roles, and whether their sides are settled: by the user, by what names there are, or not."""
     try:
-        found = roles_from_structure(tree)
+        found, sided = roles_from_structure(tree)
     except RigError as error:
         missing = _missing(named)
         if len(missing) == len(REQUIRED):
             raise
         raise RigError(_lacking(tree, missing or _misplaced(tree, named))) from error
+    if _contradicts(found, named):
+        raise RigError(_lacking(tree, _missing(named) or _misplaced(tree, named)))
     if any(_swapped(found).get(role) == joint for role, joint in given.items()):
         found = _swapped(found)
+    sided = sided or any("_" in role for role in given)
     roles = _completed(tree, {**found, **given})
     bad = _misplaced(tree, roles)
     if bad:
         raise RigError(_lacking(tree, bad))
-    return roles
+    return roles, sided
+
+
+def _contradicts(found: Mapping[str, int], named: Mapping[str, int]) -> bool:
+    """Whether the structure takes a joint of a leg for one whose name says that it is of an arm, or the other way."""
+    limbs = {joint: _limb(role) for role, joint in named.items()}
+    return any(limbs.get(joint, limb) != limb for limb, joint in ((_limb(role), j) for role, j in found.items()))
+
+
+def _limb(role: str) -> str:
+    """``leg``, ``arm`` or the role itself."""
+    part = role.rsplit("_", maxsplit=1)[-1]
+    return "leg" if part in (*LEGS, "foot") else "arm" if part in (*ARMS, "hand") else role
 
 
 def _lacking(tree: RigTree, roles: list[str]) -> str:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from motionrt.errors import RigError
-from motionrt.motion.rotations import Array
+from motionrt.motion.rotations import Array, normalise
 from motionrt.motion.skeleton import FloatArray
 from motionrt.rigs.alignment import Alignments, align_standing
 from motionrt.rigs.axes import sides_agree, to_y_up
@@ -18,6 +18,9 @@ from motionrt.rigs.elbows import align_elbows
 from motionrt.rigs.pose import RigPose, animated_pose, standing_axes, still_pose
 from motionrt.rigs.roles import RigRoles, assign_roles
 from motionrt.rigs.tree import RigTree
+
+_CROSSED = -0.5
+"""Cosine between the lines of hips and shoulders below which one of them has its sides exchanged."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,7 +42,9 @@ class Stance:
     to_world: Array
 
 
-def read_stance(clip: RigClip, mapping: Mapping[str, str] | None, poses: Sequence[FloatArray]) -> Stance:
+def read_stance(
+    clip: RigClip, mapping: Mapping[str, str] | None, poses: Sequence[FloatArray], roles: RigRoles | None = None
+) -> Stance:
     """Find out what is needed to retarget.
 
     Args:
@@ -47,17 +52,17 @@ def read_stance(clip: RigClip, mapping: Mapping[str, str] | None, poses: Sequenc
         mapping: ``smpl24`` joint name -> rig joint name; may be partial.
         poses: local rotations ``(J, 3, 3)`` of poses that may be standing poses, the likeliest first. If none is, the
             animation says how the joints are turned.
+        roles: which joint plays which role, if that is known already.
 
     Raises:
         RigError: the rig is no humanoid, or joints are missing or ambiguous.
     """
-    roles = assign_roles(RigTree(clip), mapping)
+    roles = assign_roles(RigTree(clip), mapping) if roles is None else roles
     motion = animated_pose(clip, roles)
     if not np.isfinite(motion.positions).all():
         raise RigError("the clip holds positions that are not finite")
-    if not sides_agree(motion) and not _sides_given(mapping):
-        roles = roles.swapped()
-        motion.roles = roles
+    if not _sides_given(mapping):
+        roles = motion.roles = _one_sided(motion)
     local, still, axes = _standing(clip, roles, poses)
     to_world = to_y_up(clip.up, motion, axes)
     if still is not None and axes is not None:
@@ -65,6 +70,14 @@ def read_stance(clip: RigClip, mapping: Mapping[str, str] | None, poses: Sequenc
     else:
         alignments = align_from_motion(motion, to_world.T[:, 1])
     return Stance(roles, motion, local, alignments, to_world)
+
+
+def _one_sided(motion: RigPose) -> RigRoles:
+    """One decision for the whole figure: legs as the body faces, arms on the side of the legs."""
+    roles = motion.roles if sides_agree(motion) else motion.roles.swapped()
+    facing = RigPose(motion.positions, motion.rotations, roles)
+    crossed = (normalise(facing.across()) * normalise(facing.across("shoulder"))).sum(-1)
+    return roles.swapped_arms() if np.median(crossed) < _CROSSED else roles
 
 
 def _sides_given(mapping: Mapping[str, str] | None) -> bool:

@@ -1,7 +1,8 @@
 """Find a humanoid in a joint tree without believing its names: by branching, symmetry and bone lengths.
 
-Legs and arms are the two pairs of like chains; the pair at the root's end of the trunk is the legs. Which
-side is left is not decided here (see ``rig_axes``): the pairs come in the order of the file.
+Legs and arms are the two pairs of like chains; the pair at the root's end of the trunk is the legs. Sides that the
+names state bind both pairs; without any, legs and arms are on the same side where they stand on the same side, and
+which one that is, the body says (see ``rig_axes``).
 """
 
 from __future__ import annotations
@@ -9,7 +10,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from itertools import combinations
 
+import numpy as np
+
 from motionrt.errors import RigError
+from motionrt.motion.rotations import Array
+from motionrt.rigs.joint_names import side_of
 from motionrt.rigs.tree import RigTree
 
 _LIKENESS = 0.15
@@ -25,20 +30,52 @@ class _Pair:
     second: tuple[int, ...]
     length: float
 
+    def swapped(self) -> _Pair:
+        """The same pair with its chains exchanged."""
+        return _Pair(self.anchor, self.second, self.first, self.length)
 
-def roles_from_structure(tree: RigTree) -> dict[str, int]:
-    """``smpl24`` roles ``role -> joint`` of the required joints, from the tree alone; sides may be exchanged.
+
+def roles_from_structure(tree: RigTree) -> tuple[dict[str, int], bool]:
+    """``smpl24`` roles ``role -> joint`` of the required joints, and whether their sides are stated by names.
+
+    Where they are not, left and right may be exchanged, but for legs and arms together.
 
     Raises:
         RigError: the tree has no two pairs of limbs; the message says what was looked for.
     """
     legs, arms = _legs_and_arms(tree)
+    legs, arms, stated = _on_one_side(tree, legs, arms)
     roles: dict[str, int] = {}
     for pair, parts in ((legs, ("hip", "knee", "ankle")), (arms, ("shoulder", "elbow", "wrist"))):
         start = _limb_start(tree, pair)
         for side, chain in (("left", pair.first), ("right", pair.second)):
             roles |= {f"{side}_{part}": joint for part, joint in zip(parts, chain[start:], strict=False)}
-    return roles
+    return roles, stated
+
+
+def _on_one_side(tree: RigTree, legs: _Pair, arms: _Pair) -> tuple[_Pair, _Pair, bool]:
+    """Both pairs with the same side first: left, if the names of either state sides."""
+    said = [_stated_side(tree, pair) for pair in (legs, arms)]
+    same = float((_across(tree, legs) * _across(tree, arms)).sum()) >= 0
+    first = [side or (other if same else -other) for side, other in zip(said, reversed(said), strict=True)]
+    if not any(said):
+        first = [1, 1 if same else -1]
+    pairs = [pair if side >= 0 else pair.swapped() for pair, side in zip((legs, arms), first, strict=True)]
+    return pairs[0], pairs[1], any(said)
+
+
+def _stated_side(tree: RigTree, pair: _Pair) -> int:
+    """1 if the names call the first chain left or the second right, -1 the other way, 0 if they state nothing."""
+    vote = {"left": 1, "right": -1, "": 0}
+    votes = [vote[side_of(tree.names[joint])] for joint in pair.first]
+    votes += [-vote[side_of(tree.names[joint])] for joint in pair.second]
+    return int(np.sign(sum(votes)))
+
+
+def _across(tree: RigTree, pair: _Pair) -> Array:
+    """Vectors ``(S, 3)`` from the start of the second chain to that of the first, at a few frames."""
+    start = _limb_start(tree, pair)
+    return np.asarray(tree.places[:, pair.first[start]] - tree.places[:, pair.second[start]])
 
 
 def _legs_and_arms(tree: RigTree) -> tuple[_Pair, _Pair]:

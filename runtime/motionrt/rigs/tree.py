@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
@@ -14,10 +15,14 @@ _COINCIDENT = 0.08
 """A bone shorter than this share of the median bone counts as none: its two joints stand in one place."""
 
 
+_SAMPLES = 24
+
+
 class RigTree:
     """The joint tree of a rig, with the typical (median over the clip) length of every bone in file units."""
 
     def __init__(self, clip: RigClip) -> None:
+        self._clip = clip
         self.names: Sequence[str] = clip.names
         self.parents: Sequence[int] = clip.parents
         lengths = np.linalg.norm(np.asarray(clip.translations, dtype=np.float64), axis=-1)
@@ -37,6 +42,14 @@ class RigTree:
         return out
 
     @cached_property
+    def places(self) -> Array:
+        """``(S, J, 3)`` global positions at a few frames of the clip, file units."""
+        some = slice(None, None, max(1, self._clip.frames // _SAMPLES))
+        clip = self._clip
+        part = replace(clip, rotations=clip.rotations[some], translations=clip.translations[some])
+        return np.asarray(part.global_pose()[0], dtype=np.float64)
+
+    @cached_property
     def negligible(self) -> float:
         """Bone length in file units below which two joints count as one place."""
         bones = self.lengths[self.lengths > 0]
@@ -49,6 +62,10 @@ class RigTree:
             out.append(joint)
             joint = self.parents[joint]
         return out
+
+    def is_last(self, joint: int) -> bool:
+        """Whether nothing but an end site is below ``joint``."""
+        return all(self.names[child].endswith("_end") for child in self.children[joint])
 
     def is_above(self, upper: int, lower: int) -> bool:
         """Whether ``upper`` is a proper ancestor of ``lower``."""

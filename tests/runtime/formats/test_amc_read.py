@@ -191,3 +191,19 @@ def test_missing_files_are_not_found(tmp_path: Path) -> None:
         read_amc(tmp_path / "nothing.amc")
     with pytest.raises(MotionFileNotFoundError, match=r"nothing\.asf"):
         read_amc(write(tmp_path / "a.amc", AMC), tmp_path / "nothing.asf")
+
+
+@pytest.mark.parametrize(
+    ("header", "fps"),
+    [(":SAMPLES-PER-SECOND 30\n", 30.0), (":samples-per-second 25\n", 25.0), (":FPS 60\n", 60.0), ("", 120.0)],
+)
+def test_the_rate_that_the_header_states_counts_before_the_usual_one(tmp_path: Path, header: str, fps: float) -> None:
+    write(tmp_path / "01.asf", ASF)
+    path = write(tmp_path / "01_02.amc", header + AMC)
+    assert read_amc(path).fps == fps
+    assert read_amc(path, fps=50).fps == 50
+
+
+def test_a_rate_in_the_header_that_makes_no_sense_is_refused_with_its_line(tmp_path: Path) -> None:
+    with pytest.raises(FormatError, match=r"01_02\.amc:1: .*frames per second"):
+        read(tmp_path, ":SAMPLES-PER-SECOND 0\n" + AMC)

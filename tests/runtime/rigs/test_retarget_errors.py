@@ -53,7 +53,7 @@ def test_a_missing_elbow_is_named() -> None:
 
 def test_two_claims_on_one_role_are_an_error_that_names_both() -> None:
     clip = rig(person(4), NAMES)
-    names = tuple("L_knee" if name == "R_foot" else name for name in clip.names)
+    names = tuple("L_knee" if name == "R_ankle" else name for name in clip.names)
     with pytest.raises(RigError, match=r"several joints could be left_knee: 'L_knee', 'L_knee'.*mapping="):
         to_smpl24(replace(clip, names=names))
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -14,6 +15,8 @@ from motionrt.formats.acclaim.rig import Values, build_rig
 from motionrt.formats.text import read_text, shorten, to_float, to_floats
 from motionrt.rigs.clip import RigClip
 
+_RATE = re.compile(r":(?:samples?[-_ ]?per[-_ ]?second|frames?[-_ ]?per[-_ ]?second|fps|frame[-_ ]?rate)[ \t:=]+(\S+)")
+
 
 @dataclass(frozen=True)
 class _Body:
@@ -22,6 +25,7 @@ class _Body:
     lines: list[str]
     first_line: int
     degrees: bool | None
+    fps: float | None
 
 
 def read_amc(path: str | Path, asf: str | Path | None = None, *, fps: float | None = None) -> RigClip:
@@ -34,7 +38,8 @@ def read_amc(path: str | Path, asf: str | Path | None = None, *, fps: float | No
     Args:
         path: the ``.amc`` file.
         asf: the ``.asf`` skeleton; looked for beside the file if ``None``, see :func:`find_asf`.
-        fps: frames per second, which the format does not hold: looked up by :func:`find_fps` if ``None``.
+        fps: frames per second; if ``None``, what the header says (``:SAMPLES-PER-SECOND``), else what
+            :func:`find_fps` finds.
 
     Raises:
         MotionFileNotFoundError: the file is missing, or there is no skeleton for it.
@@ -45,21 +50,36 @@ def read_amc(path: str | Path, asf: str | Path | None = None, *, fps: float | No
     skeleton = find_asf(path) if asf is None else read_asf(asf)
     channels = _read_frames(body, skeleton, path)
     degrees = skeleton.angles_in_degrees if body.degrees is None else body.degrees
-    return build_rig(skeleton, channels, degrees, find_fps(path) if fps is None else float(fps))
+    rate = fps or body.fps or find_fps(path)
+    return build_rig(skeleton, channels, degrees, float(rate))
 
 
 def _read_body(path: Path) -> _Body:
     lines = read_text(path).split("\n")
     degrees: bool | None = None
+    fps: float | None = None
     for i, line in enumerate(lines):
         word = line.strip().lower()
         if word.isdecimal():
-            return _Body(lines[i:], i + 1, degrees)
+            return _Body(lines[i:], i + 1, degrees, fps)
         if word in (":degrees", ":radians"):
             degrees = word == ":degrees"
-        elif word and word[0] not in "#:":
+        elif word.startswith(":"):
+            fps = _stated_rate(word, path, i + 1) or fps
+        elif word and word[0] != "#":
             raise FormatError(path, f"expected a frame number, found '{shorten(line)}'", i + 1)
     raise FormatError(path, "the file has no frames", len(lines))
+
+
+def _stated_rate(line: str, path: Path, number: int) -> float | None:
+    """Frames per second of a header line such as ``:samples-per-second 30``; ``None`` if it states something else."""
+    match = _RATE.match(line)
+    if match is None:
+        return None
+    rate = to_float(match.group(1), path, number)
+    if not 1 <= rate <= 1000:
+        raise FormatError(path, f"{shorten(match.group(1))} frames per second is no sane rate", number)
+    return rate
 
 
 def _read_frames(body: _Body, skeleton: AsfSkeleton, path: Path) -> dict[str, Values]:
