@@ -75,12 +75,13 @@ def run(plan: Plan, workers: Workers) -> BuildReport:
 
 def _job(plan: Plan, name: str) -> FileJob:
     known = plan.known.get(name)
-    return FileJob(plan.source, name, plan.mapping, known.clip.sha256 if known else None)
+    complete = known is not None and known.attributes is not None
+    return FileJob(plan.source, name, plan.mapping, known.clip.sha256 if known and complete else None)
 
 
 def _same_on_disk(plan: Plan, name: str) -> bool:
     known = plan.known.get(name)
-    if known is None:
+    if known is None or known.attributes is None:  # an old gallery has no attributes: its files are read again
         return False
     try:
         stat = (plan.source / name).stat()
@@ -121,6 +122,7 @@ def _assembled(plan: Plan, clips: list[IndexedClip], skipped: list[Skipped], sta
         source=plan.source,
         skipped=tuple(skipped),
         mapping=plan.mapping,
+        attributes=np.concatenate([item.attributes for item in clips if item.attributes is not None]),
     )
 
 

@@ -19,7 +19,7 @@ from motionrt.retrieval.contents import Contents
 from motionrt.retrieval.locking import writing
 from motionrt.retrieval.records import Clip, ModelStamp, window_table
 from motionrt.retrieval.search import ExactIndex, Hit, checked_k, nearest_per_group
-from motionrt.retrieval.windows import MotionEmbedder, embed_windows, motion_features, spans_in_seconds
+from motionrt.retrieval.windows import MotionEmbedder, embed_windows, measured, motion_features, spans_in_seconds
 
 if TYPE_CHECKING:
     from motionrt.retrieval.approximate import ApproximateIndex
@@ -40,6 +40,9 @@ class Gallery(Contents):
         motions: the clips themselves, or the file that holds them, when the gallery carries them.
         folder: where the gallery was opened or saved, ``None`` for one in memory.
         neighbours: where the index of approximate search is kept, ``None`` for a gallery in memory.
+        attributes: ``(W, A)`` float32, what each window does (:data:`motionrt.motion.attributes.ATTRIBUTES`), ``None``
+            in a gallery of an older motionrt until it is updated.
+        captions: words that the library carries about its clips.
     """
 
     def __len__(self) -> int:
@@ -91,6 +94,7 @@ class Gallery(Contents):
             window_table(spans),
             ModelStamp(model.name, model.fingerprint),
             motions=MotionPack.of([motions[i] for i in order]) if store_motions else None,
+            attributes=np.concatenate([measured(motions[i], part) for i, part in zip(order, spans, strict=True)]),
         )
 
     def save(self, folder: str | Path) -> Gallery:
