@@ -13,6 +13,7 @@ from motionrt.retrieval import layout
 from motionrt.retrieval.gallery import Gallery
 from motionrt.retrieval.indexing import FileJob, IndexedClip, OpenModel, Outcome, SameContent, index_files
 from motionrt.retrieval.records import ModelStamp, Skipped, window_table
+from motionrt.retrieval.sidecars import read_sidecars
 from motionrt.retrieval.windows import MotionEmbedder
 
 Progress = Callable[[int, int, str], None]
@@ -68,7 +69,8 @@ def run(plan: Plan, workers: Workers) -> BuildReport:
             f"the first: {skipped[0].path}: {skipped[0].reason}"
         )
     stamp = ModelStamp(workers.model.name, workers.model.fingerprint)
-    gallery = _assembled(plan, clips, skipped, stamp)
+    captions, closed = read_sidecars(plan.source, [item.clip.id for item in clips])
+    gallery = replace(_assembled(plan, clips, [*skipped, *closed], stamp), captions=captions)
     layout.save(gallery, plan.target)
     return _report(plan, Gallery.open(plan.target), outcomes)
 

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
 from motionrt.motion.attributes import ATTRIBUTES, Attributes
 from motionrt.text.query import TextAttributes
-from motionrt.text.terms import Array, terms_of
+from motionrt.text.terms import Array, Columns, terms_of
 
 NEUTRAL = 0.5  # of a text that says nothing that can be measured
 _SIDE = 0.7  # share that a side which is not kept takes from the whole
@@ -40,16 +38,15 @@ def agreement(said: TextAttributes, attributes: Attributes) -> Agreement:
     return Agreement(float(agreements(said, columns)[0]), tuple(reasons))
 
 
-def agreements(said: TextAttributes, columns: Mapping[str, npt.ArrayLike]) -> Array:
+def agreements(said: TextAttributes, columns: Columns) -> Array:
     """``(N,)`` scores of many motions at once.
 
     Args:
         said: what the text says.
         columns: for each name of :data:`motionrt.motion.attributes.ATTRIBUTES` the values ``(N,)``.
     """
-    table = {name: np.asarray(columns[name], dtype=np.float64) for name in ATTRIBUTES}
-    count = len(table["turn"])
-    terms = terms_of(said, table)
+    count = len(columns["turn"])
+    terms = terms_of(said, columns)
     if not terms:
         return np.full(count, NEUTRAL)
     total = np.sum([term.weight * term.score for term in terms], axis=0) / sum(term.weight for term in terms)
