@@ -30,6 +30,7 @@ class Contents:
     neighbours: Path | None = None
     attributes: FloatArray | None = None
     captions: tuple[Caption, ...] = ()
+    words_file: Path | None = None
 
     @cached_property
     def pack(self) -> MotionPack | None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -21,8 +21,8 @@ from motionrt.text import agreements, parse_query
 if TYPE_CHECKING:
     from motionrt.retrieval.gallery import Gallery
 
-_WIDE, _TIMES = 512, 20  # windows that are looked at closely: at least, and for every hit that is wanted
-_BY_WORDS = 256  # windows that their words bring in
+_WIDE, _TIMES = 200, 10  # windows that are looked at closely: at least, and for every hit that is wanted
+_BY_WORDS = 100  # windows that their words bring in
 
 
 class Hits(list[Hit]):
@@ -66,7 +66,7 @@ def find(gallery: Gallery, text: str, query: FloatArray, search: Search) -> Hits
     """The best hits for a text and its embedding ``(256,)``.
 
     The windows that are nearest by embedding, or share words with the text, are ranked by cosine, attributes and words
-    together; in a gallery of up to some 500 windows, and behind a filter, those are all.
+    together; in a gallery of up to 200 windows, and behind a filter, those are all.
     """
     k, weights = checked_k(search.k), search.weights
     unknown = unknown_words(text, gallery.words) if search.weights.words and not search.anyway else ()
@@ -88,10 +88,10 @@ def find(gallery: Gallery, text: str, query: FloatArray, search: Search) -> Hits
     if search.per_clip:
         _, first = np.unique(gallery.windows["clip"][rows[order]], return_index=True)
         order = order[np.sort(first)]
-    hits = [gallery.hit(rank, int(rows[i]), float(total[i])) for rank, i in enumerate(order[:k], 1)]
-    parts = [(float(cosines[i]), None if fits is None else float(fits[i])) for i in order[:k]]
-    told = [replace(hit, cosine=cosine, agreement=fit) for hit, (cosine, fit) in zip(hits, parts, strict=True)]
-    return Hits(told)
+    return Hits(
+        gallery.hit(rank, int(rows[i]), float(total[i]), float(cosines[i]), None if fits is None else float(fits[i]))
+        for rank, i in enumerate(order[:k].tolist(), 1)
+    )
 
 
 def _candidates(
@@ -107,11 +107,16 @@ def _candidates(
     else:
         rows = gallery.nearest(query, max(_WIDE, _TIMES * search.k), approximate=search.approximate)
         if words is not None:
-            best = (
-                np.argsort(-words, kind="stable")[:_BY_WORDS]
-                if np.count_nonzero(words) > _BY_WORDS
-                else np.flatnonzero(words)
-            )
-            rows = np.union1d(rows, best)
+            chosen = np.zeros(len(words), dtype=bool)
+            chosen[rows] = chosen[_best(words)] = True
+            rows = np.flatnonzero(chosen)
     rows = np.sort(rows)
     return rows, scores(np.ascontiguousarray(gallery.embeddings[rows]), np.ascontiguousarray(query, dtype=np.float32))
+
+
+def _best(words: npt.NDArray[np.float32]) -> IntArray:
+    """Windows whose words fit best, of those that have any."""
+    found = np.flatnonzero(words)
+    if len(found) > _BY_WORDS:
+        found = found[np.argpartition(words[found], -_BY_WORDS)[-_BY_WORDS:]]
+    return found

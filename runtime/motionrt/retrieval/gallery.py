@@ -208,17 +208,20 @@ class Gallery(Contents):
             raise InvalidInputError(f"a query is a vector of {self.embeddings.shape[1]}, not {query.shape}")
         return (self._approximate if approximate else self._exact).nearest(query, count)[0]
 
-    def hit(self, rank: int, window: int, score: float) -> Hit:
+    def hit(
+        self, rank: int, window: int, score: float, cosine: float | None = None, agreement: float | None = None
+    ) -> Hit:
         """The window of that number as a hit."""
         row = self.windows[window]
         clip = self.clips[int(row["clip"])]
         start, end = float(row["start_s"]), float(row["end_s"])
-        return Hit(rank, score, clip.id, self.path(clip), start, end, clip.text)
+        return Hit(rank, score, clip.id, self.path(clip), start, end, clip.text, cosine, agreement)
 
     @cached_property
     def words(self) -> WordIndex:
-        """The words of captions, texts and file names; read when first needed."""
-        return WordIndex.of(self.clips, self.windows, self.captions)
+        """The words of captions, texts and file names; read, or found, when first needed."""
+        kept = WordIndex.read(self.words_file, len(self.windows)) if self.words_file is not None else None
+        return kept or WordIndex.of(self.clips, self.windows, self.captions)
 
     @cached_property
     def tags(self) -> dict[str, frozenset[str]]:

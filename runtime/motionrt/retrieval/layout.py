@@ -16,6 +16,7 @@ from motionrt.motion.skeleton import FloatArray
 from motionrt.retrieval import store
 from motionrt.retrieval.contents import Contents
 from motionrt.retrieval.records import WINDOW_TYPE, Caption, Clip, ModelStamp, Skipped, WindowTable
+from motionrt.retrieval.words import WordIndex
 
 
 def save(gallery: Contents, folder: Path) -> None:
@@ -26,6 +27,8 @@ def save(gallery: Contents, folder: Path) -> None:
     }
     if gallery.attributes is not None:
         arrays["attributes"] = (".npy", partial(_write_npy, array=gallery.attributes))
+    words = WordIndex.of(gallery.clips, gallery.windows, gallery.captions)
+    arrays["words"] = (".npz", words.write)
     pack = gallery.pack
     if pack is not None:
         arrays["motions"] = (".npz", pack.write)
@@ -69,6 +72,7 @@ def _read(folder: Path, head: dict[str, Any]) -> Contents:
         folder=folder,
         neighbours=folder / store.neighbours_name(files["embeddings"]),
         attributes=_attributes(folder, head),
+        words_file=folder / files["words"] if "words" in files else None,
         captions=tuple(_caption(row) for row in head.get("captions", ())),
     )
 

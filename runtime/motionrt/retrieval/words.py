@@ -11,7 +11,9 @@ from collections import Counter, defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from pathlib import PurePosixPath
+from pathlib import Path, PurePosixPath
+from typing import IO
+from zipfile import BadZipFile
 
 import numpy as np
 import numpy.typing as npt
@@ -106,6 +108,24 @@ class WordIndex:
             numbers, np.array(starts, np.int32), joined[0].astype(np.int32), joined[1].astype(np.float32),
             np.array(worth, np.float32), count,
         )  # fmt: skip
+
+    def write(self, file: IO[bytes]) -> None:
+        """Write the index as ``.npz``."""
+        words = np.frombuffer("\n".join(self.words).encode("utf-8"), dtype=np.uint8)
+        np.savez(file, words=words, starts=self.starts, windows=self.windows, weights=self.weights, worth=self.worth)
+
+    @classmethod
+    def read(cls, path: Path, count: int) -> WordIndex | None:
+        """What :meth:`write` wrote for ``count`` windows; None where the file is damaged: it can be made again."""
+        try:
+            with np.load(path, allow_pickle=False) as file:
+                words = file["words"].tobytes().decode("utf-8")
+                rest = (file["starts"], file["windows"], file["weights"], file["worth"])
+        except (OSError, ValueError, KeyError, EOFError, BadZipFile):
+            return None
+        numbers = {word: k for k, word in enumerate(words.split("\n") if words else [])}
+        fits = len(numbers) == len(rest[3]) == len(rest[0]) - 1 and rest[1].max(initial=-1) < count
+        return cls(numbers, *rest, count) if fits else None
 
     def known(self, text: str) -> list[str]:
         """The words of a text that some clip carries."""

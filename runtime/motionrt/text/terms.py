@@ -64,18 +64,22 @@ def toward(side: str, values: Array, scale: float) -> Array:
 
 
 def _turns(said: TextAttributes, c: Columns) -> list[Term]:
-    size, kind, side = np.abs(c["turn"]), said.turn, said.turn_side
-    wide = np.maximum(size, 0.8 * c["spin_extent"])
-    amounts = {
-        "none": rise(size, 60, 20),
-        "turn": between(size, 15, 50, 150, 260),
-        "around": between(wide, 80, 140, 230, 330),
-        "full": rise(c["spin_extent"], 180, 300),
-    }
-    found = [Term(f"turn {kind}", "turn", amounts[kind])] if kind else []
+    kind, side = said.turn, said.turn_side
+    found = [Term(f"turn {kind}", "turn", _amount(kind, c))] if kind else []
     if side and not said.path:
         found.append(Term(f"turn {side}", "turn", toward(side, _sideways(c, kind), 1.0), 2.0, sided=True))
     return found
+
+
+def _amount(kind: str, c: Columns) -> Array:
+    size = np.abs(c["turn"])
+    if kind == "none":
+        return rise(size, 60, 20)
+    if kind == "turn":
+        return between(size, 15, 50, 150, 260)
+    if kind == "around":
+        return between(np.maximum(size, 0.8 * c["spin_extent"]), 80, 140, 230, 330)
+    return rise(c["spin_extent"], 180, 300)
 
 
 def _sideways(c: Columns, kind: str | None) -> Array:
@@ -87,44 +91,51 @@ def _sideways(c: Columns, kind: str | None) -> Array:
 def _paths(said: TextAttributes, c: Columns) -> list[Term]:
     if not said.path:
         return []
-    bend, size = c["path_bend"], np.abs(c["path_bend"])
-    kinds = {
-        "straight": rise(size, 80, 25) * rise(np.abs(c["turn"]), 80, 30),
-        "curve": rise(size, 20, 60),
-        "circle": rise(size, 90, 240),
-        "spin": rise(c["spin_extent"], 150, 320) * rise(c["path_length"] / np.maximum(c["seconds"], 1), 1.5, 0.7),
-    }
-    found = [Term(said.path, "path_bend", kinds[said.path])]
+    found = [Term(said.path, "path_bend", _shape(said.path, c))]
     if said.path_side:
-        lean = c["turn"] / 60 if said.path == "spin" else bend / 60 + c["turn"] / 120
+        lean = c["turn"] / 60 if said.path == "spin" else c["path_bend"] / 60 + c["turn"] / 120
         fits = toward(said.path_side, lean, 1.0)
         found.append(Term(f"{said.path} {said.path_side}", "path_bend", fits, 2.0, sided=True))
     return found
 
 
+def _shape(path: str, c: Columns) -> Array:
+    size = np.abs(c["path_bend"])
+    if path == "straight":
+        return np.asarray(rise(size, 80, 25) * rise(np.abs(c["turn"]), 80, 30))
+    if path == "spin":
+        return np.asarray(rise(c["spin_extent"], 150, 320) * rise(c["speed_mean"], 1.5, 0.7))
+    return rise(size, 20, 60) if path == "curve" else rise(size, 90, 240)
+
+
 def _travels(said: TextAttributes, c: Columns) -> list[Term]:
-    forward, left, found = c["walk_forward"], c["walk_left"], []
+    found = []
     if said.travel in ("left", "right"):
-        found.append(Term(f"go {said.travel}", "walk_left", toward(said.travel, left, 0.4), 2.0, sided=True))
-    along = {
-        "forward": rise(forward, 0.0, 0.6),
-        "backward": rise(-forward, 0.0, 0.5),
-        "none": rise(c["farthest"], 1.3, 0.4),
-        "sideways": rise(np.abs(left) / (np.abs(forward) + 0.2), 0.3, 1.1),
-    }
-    along |= dict.fromkeys(("left", "right"), along["sideways"])
-    shown = "walk_left" if said.travel in ("left", "right", "sideways") else "walk_forward"
+        found.append(Term(f"go {said.travel}", "walk_left", toward(said.travel, c["walk_left"], 0.4), 2.0, sided=True))
     if said.travel:
-        found.append(Term(f"travel {said.travel}", "farthest" if said.travel == "none" else shown, along[said.travel]))
+        shown = {"none": "farthest", "forward": "walk_forward", "backward": "walk_forward"}.get(
+            said.travel, "walk_left"
+        )
+        found.append(Term(f"travel {said.travel}", shown, _along(said.travel, c)))
     if said.steps == "in place":
         found.append(Term("steps in place", "steps", rise(c["steps"], 1, 4) * rise(c["farthest"], 1.3, 0.5)))
     return found
 
 
+def _along(travel: str, c: Columns) -> Array:
+    if travel == "forward":
+        return rise(c["walk_forward"], 0.0, 0.6)
+    if travel == "backward":
+        return rise(-c["walk_forward"], 0.0, 0.5)
+    if travel == "none":
+        return rise(c["farthest"], 1.3, 0.4)
+    return rise(np.abs(c["walk_left"]) / (np.abs(c["walk_forward"]) + 0.2), 0.3, 1.1)
+
+
 def _speeds(said: TextAttributes, c: Columns) -> list[Term]:
     found, speed = [], c["speed_mean"]
     if said.speed:
-        away = np.log((speed + 0.15) / (_SPEEDS[said.speed] + 0.15))
+        away = np.log((np.maximum(speed, 0) + 0.15) / (_SPEEDS[said.speed] + 0.15))
         found.append(Term(said.speed, "speed_mean", np.exp(-((away / 0.6) ** 2))))
     if said.still:
         found.append(Term("still", "stillness", rise(c["stillness"], 0.2, 0.8)))
