@@ -7,14 +7,13 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from motionrt.errors import FormatError, InvalidInputError, MotionRTError
-from motionrt.formats.acclaim.amc import read_amc
-from motionrt.formats.bvh.read import read_bvh
-from motionrt.formats.bvh.write import UNITS, write_bvh
-from motionrt.formats.gltf.read import read_glb
-from motionrt.formats.gltf.write import write_glb
+from motionrt.formats.acclaim import read_amc
+from motionrt.formats.bvh import read_bvh, write_bvh
+from motionrt.formats.gltf import read_glb, write_glb
 from motionrt.formats.leading_pose import drop_leading_tpose
 from motionrt.formats.smpl import read_npz, write_npz
 from motionrt.formats.text import require_file
+from motionrt.formats.units import units_per_metre
 from motionrt.motion.motion import Motion
 from motionrt.rigs.clip import RigClip
 from motionrt.rigs.retarget_in import to_smpl24
@@ -111,16 +110,10 @@ def save_motion(motion: Motion, path: str | Path, *, units: str | None = None, t
     path = Path(path)
     suffix = _suffix(path, WRITABLE_SUFFIXES, "written")
     if suffix == ".bvh":
-        return write_bvh(motion, path, scale=_units_per_metre(units or "cm"), t_pose=t_pose)
+        return write_bvh(motion, path, scale=units_per_metre(units or "cm"), t_pose=t_pose)
     if t_pose or units not in {None, "m"}:
         raise InvalidInputError(f"units and t_pose are for .bvh; a '{suffix}' is in metres and knows its rest pose")
     return write_glb(motion, path) if suffix == ".glb" else write_npz(motion, path)
-
-
-def _units_per_metre(units: str) -> float:
-    if units not in UNITS:
-        raise InvalidInputError(f"units must be one of {', '.join(UNITS)}, not '{units}'")
-    return UNITS[units]
 
 
 def _suffix(path: Path, known: tuple[str, ...], verb: str) -> str:

@@ -17,9 +17,6 @@ from motionrt.motion.motion import Motion
 from motionrt.motion.rotations import matrix_to_euler
 from motionrt.rigs.clip import RigClip
 
-UNITS = {"m": 1.0, "cm": 100.0, "mm": 1000.0, "in": 1 / 0.0254}
-"""Names of units and how many of them are a metre."""
-
 _ORDER = "ZXY"
 _ROTATIONS = " ".join(f"{axis}rotation" for axis in _ORDER)
 _POSITIONS = "Xposition Yposition Zposition"
