@@ -24,7 +24,7 @@ class Weights:
 
     embedding: float = 1.0
     attributes: float = 0.5
-    words: float = 0.3
+    words: float = 0.6
 
 
 DEFAULT = Weights()
