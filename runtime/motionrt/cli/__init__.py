@@ -26,6 +26,7 @@ from motionrt.cli import (
     render,
     retarget,
     retrieve,
+    similar,
     studio,
     view,
     walk,
@@ -37,6 +38,7 @@ ERROR, MISTAKE, INTERRUPTED, BROKEN_PIPE = 1, 70, 130, 141
 TRACEBACK = "MOTIONRT_TRACEBACK"
 _COMMANDS = (
     retrieve,
+    similar,
     galleries,
     describe,
     moments,

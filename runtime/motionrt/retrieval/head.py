@@ -11,12 +11,12 @@ from dataclasses import fields
 from pathlib import PurePath, PurePosixPath
 from typing import Any, TypeVar
 
-from motionrt.retrieval.records import Clip, ModelStamp, Skipped
+from motionrt.retrieval.records import Caption, Clip, ModelStamp, Skipped
 from motionrt.untrusted import Fail, json_text
 from motionrt.untrusted.words import shown
 
-T = TypeVar("T", Clip, ModelStamp, Skipped)
-ROLES = {"embeddings": ".npy", "windows": ".npy", "motions": ".npz"}
+T = TypeVar("T", Caption, Clip, ModelStamp, Skipped)
+ROLES = {"embeddings": ".npy", "windows": ".npy", "attributes": ".npy", "words": ".npz", "motions": ".npz"}
 _SEAL = re.compile(rb'\{\n "checksum": "([0-9a-f]{64})",\n')
 _LONGEST_S = 1e9  # seconds of a clip
 
@@ -64,6 +64,17 @@ def clips_of(content: object, fail: Fail) -> tuple[Clip, ...]:
     return clips
 
 
+def captions_of(content: object, fail: Fail) -> tuple[Caption, ...]:
+    """What the library says of its clips."""
+    if not isinstance(content, list) or not all(isinstance(row, dict) for row in content):
+        raise fail(f"its captions are {shown(content)}", None)
+    for row in content:
+        tags = row.get("tags", [])
+        if not isinstance(tags, list) or not all(isinstance(tag, str) for tag in tags):
+            raise fail(f"the tags of a caption are {shown(tags)}", None)
+    return tuple(_rows(Caption, [{**row, "tags": tuple(row.get("tags", []))} for row in content], fail))
+
+
 def skipped_of(content: object, fail: Fail) -> tuple[Skipped, ...]:
     """What could not be indexed."""
     return tuple(_rows(Skipped, content, fail))
@@ -107,6 +118,7 @@ _KINDS: dict[str, Callable[[Any], bool]] = {
     "str": lambda value: isinstance(value, str),
     "int": lambda value: isinstance(value, int) and not isinstance(value, bool) and abs(value) < 2**63,
     "float": lambda value: isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value),
+    "float | None": lambda value: value is None or _KINDS["float"](value),
     "str | None": lambda value: value is None or isinstance(value, str),
 }
 

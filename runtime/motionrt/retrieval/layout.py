@@ -11,11 +11,13 @@ from typing import IO, Any
 import numpy as np
 import numpy.typing as npt
 
+from motionrt.motion.attributes import ATTRIBUTES
 from motionrt.motion.skeleton import FloatArray
 from motionrt.retrieval import store
 from motionrt.retrieval.contents import Contents
-from motionrt.retrieval.head import array_files, clips_of, mapping_of, model_of, skipped_of, source_of
+from motionrt.retrieval.head import array_files, captions_of, clips_of, mapping_of, model_of, skipped_of, source_of
 from motionrt.retrieval.records import WINDOW_TYPE, WindowTable
+from motionrt.retrieval.words import WordIndex
 
 _CHECKED = 256 * 2**20  # bytes of embeddings that are checked at the first search
 
@@ -26,6 +28,10 @@ def save(gallery: Contents, folder: Path) -> None:
         "embeddings": (".npy", partial(_write_npy, array=gallery.embeddings)),
         "windows": (".npy", partial(_write_npy, array=gallery.windows)),
     }
+    if gallery.attributes is not None:
+        arrays["attributes"] = (".npy", partial(_write_npy, array=gallery.attributes))
+    words = WordIndex.of(gallery.clips, gallery.windows, gallery.captions)
+    arrays["words"] = (".npz", words.write)
     pack = gallery.pack
     if pack is not None:
         arrays["motions"] = (".npz", pack.write)
@@ -68,6 +74,9 @@ def check_embeddings(contents: Contents) -> None:
 def _assembled(folder: Path, head: dict[str, Any]) -> Contents:
     contents = _read(folder, head)
     _check(contents.embeddings, contents.windows, len(contents.clips), folder)
+    found = contents.attributes
+    if found is not None and (found.shape != (len(contents.windows), len(ATTRIBUTES)) or found.dtype.kind != "f"):
+        raise store.damaged(folder, "windows and attributes do not fit together")
     return contents
 
 
@@ -87,7 +96,17 @@ def _read(folder: Path, head: dict[str, Any]) -> Contents:
         motions=folder / files["motions"] if "motions" in files else None,
         folder=folder,
         neighbours=folder / store.neighbours_name(files["embeddings"]),
+        attributes=_attributes(folder, head, files),
+        words_file=folder / files["words"] if "words" in files else None,
+        captions=captions_of(head.get("captions", []), fail),
     )
+
+
+def _attributes(folder: Path, head: dict[str, Any], files: dict[str, str]) -> FloatArray | None:
+    """Attributes ``(W, A)``; None of a gallery that has none, or those of another version of motionrt."""
+    if head.get("attributes") != list(ATTRIBUTES) or "attributes" not in files:
+        return None
+    return store.read_array(folder, files["attributes"])
 
 
 def _check(embeddings: FloatArray, windows: WindowTable, clips: int, folder: Path) -> None:
@@ -111,6 +130,8 @@ def _head(gallery: Contents, folder: Path) -> dict[str, Any]:
         "mapping": dict(gallery.mapping) if gallery.mapping else None,
         "clips": [asdict(clip) for clip in gallery.clips],
         "skipped": [asdict(skipped) for skipped in gallery.skipped],
+        **({} if gallery.attributes is None else {"attributes": list(ATTRIBUTES)}),
+        **({"captions": [asdict(caption) for caption in gallery.captions]} if gallery.captions else {}),
     }
 
 
