@@ -123,9 +123,7 @@ class WordIndex:
             found, _ = read_arrays(path, lambda reason, line: FormatError(path, reason, line), tuple(_KINDS))
         except (OSError, FormatError):
             return None
-        if any(
-            name not in found or (found[name].dtype, found[name].ndim) != (kind, 1) for name, kind in _KINDS.items()
-        ):
+        if set(found) != set(_KINDS) or any(a.ndim != 1 or a.dtype != _KINDS[name] for name, a in found.items()):
             return None
         words, starts, windows, weights, worth = (found[name] for name in _KINDS)
         listed = words.tobytes().decode("utf-8", "replace").split("\n") if len(words) else []
