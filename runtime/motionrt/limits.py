@@ -17,6 +17,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, fields, replace
+from numbers import Real
 
 from motionrt.errors import InvalidInputError
 
@@ -40,9 +41,10 @@ class Limits:
         fps: frames per second of a motion; the least rate is :data:`SLOWEST_FPS`.
         text_chars: characters of a text that is searched for, generated or understood.
         motions: motions that one call generates of a text, or results that it gives.
-        seconds: seconds that one step of a script holds, and all of them together.
+        seconds: seconds that one action holds.
         steps: steps of a script.
-        metres: distance of a place, a goal or a root from the origin; radius of a path.
+        metres: distance of a place, a goal or a root from the origin.
+        radians: a heading, either way.
         path_points: points of a path, and corners of a polygon.
         pixels: pixels of a map.
         cells: cells of a scene's grid.
@@ -51,7 +53,6 @@ class Limits:
         cloud_points: points of a semantic cloud.
         upload_bytes: bytes that one window of the studio may upload, as received.
         windows: windows of a page at the same time.
-        gallery_clips: clips of a gallery.
     """
 
     file_bytes: int = 2**30
@@ -69,6 +70,7 @@ class Limits:
     seconds: float = 3600.0
     steps: int = 1000
     metres: float = 100_000.0
+    radians: float = 10_000.0
     path_points: int = 100_000
     pixels: int = 25_000_000
     cells: int = 25_000_000
@@ -77,7 +79,6 @@ class Limits:
     cloud_points: int = 20_000_000
     upload_bytes: int = 64 * 2**20
     windows: int = 8
-    gallery_clips: int = 5_000_000
 
 
 SLOWEST_FPS = 0.01
@@ -113,6 +114,16 @@ def raised(**values: float) -> Iterator[Limits]:
 def how_to_raise(name: str) -> str:
     """The end of a message: what to do where a limit stands in the way of good work."""
     return f"the limit {name} is {getattr(limits(), name):,}; raise it with {VARIABLE}={name}=NUMBER"
+
+
+def check_place(what: str, metres: tuple[float, ...], heading: float | None = None) -> None:
+    """InvalidInputError unless numbers are finite, and within the limits of places and headings."""
+    places = [(number, "metres", limits().metres) for number in metres]
+    for number, name, most in [*places, (heading, "radians", limits().radians)]:
+        if number is not None and not (isinstance(number, Real) and -1e300 < number < 1e300):
+            raise InvalidInputError(f"{what} needs three finite numbers, not {number!r:.60}")
+        if number is not None and abs(number) > most:
+            raise InvalidInputError(f"{what} is out of range ({number:g}): {how_to_raise(name)}")
 
 
 def _of_process() -> Limits:
