@@ -21,7 +21,12 @@ PAGES: dict[str, Page] = {
         (
             "motionrt:Gallery", "motionrt:Hit", "motionrt.retrieval:Description", "motionrt.retrieval:Moments",
             "motionrt.retrieval:Moment", "motionrt.retrieval:BuildReport", "motionrt.retrieval:build_gallery",
-            "motionrt.retrieval:update_gallery",
+            "motionrt.retrieval:update_gallery", "motionrt.retrieval:Hits", "motionrt.retrieval:Filter",
+            "motionrt.retrieval:Weights", "motionrt.retrieval:Caption", "motionrt.retrieval:find",
+            "motionrt.retrieval:Search", "motionrt.retrieval:similar", "motionrt.retrieval:duplicates",
+            "motionrt.retrieval:Duplicates", "motionrt.motion.attributes:measure",
+            "motionrt.motion.attributes:Attributes", "motionrt.text:parse_query", "motionrt.text:TextAttributes",
+            "motionrt.text:agreement", "motionrt.text:Agreement",
         ),
     ),
     "making": (

@@ -25,6 +25,7 @@ from motionrt.cli import (
     render,
     retarget,
     retrieve,
+    similar,
     studio,
     view,
     walk,
@@ -35,6 +36,7 @@ from motionrt.errors import MotionRTError
 ERROR, INTERRUPTED, BROKEN_PIPE = 1, 130, 141
 _COMMANDS = (
     retrieve,
+    similar,
     galleries,
     describe,
     moments,
