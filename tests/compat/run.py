@@ -81,7 +81,7 @@ def _one(
 
 
 def requirements(pyproject: Path, extras: Sequence[str] = ()) -> dict[str, str]:
-    """The dependencies of a pyproject.toml with the lowest version of each, all of the form ``name>=version`` and what is excluded."""
+    """The dependencies of a pyproject.toml with the lowest version of each: ``name>=version``, and ``!=`` behind it."""
     project = tomllib.loads(pyproject.read_text(encoding="utf-8"))["project"]
     optional = project["optional-dependencies"]
     listed = [*project["dependencies"], *(line for extra in extras for line in optional[extra])]
