@@ -12,7 +12,7 @@ import numpy as np
 from torch import nn
 
 from motionrt.retrieval.captions import read_captions
-from motionrt.runtime import DEFAULT_CAPTIONS
+from motionrt.services.search import DEFAULT_CAPTIONS
 from motionrt_export import references, specs
 from motionrt_export.calibration import calibration_feeds, sentence_ids
 from motionrt_export.drift import TransitionDrift, WalkDrift
@@ -75,7 +75,7 @@ class Sources:
     motions are made when TEMOS and its denoiser are; texts are tried on every `every`-th caption of the runtime's list.
     """
 
-    steps, characters, generations, every = 1000, 16, 64, 1
+    steps, characters, generations, every = 1000, 32, 64, 1
 
     def __init__(self, checkpoints: Path) -> None:
         self.folder = checkpoints
