@@ -519,3 +519,17 @@ TURN_WORDS = (
     r"\b(?:turn|rotat|pivot|veer|swerv|swivel|spin|twirl|whirl|about ?face|u turn|circl|curv"
     r"|revers|twist|swing)\w*|clockwise"
 )
+
+TURN_VERBS = r"\b(?:face|faces|facing|wheel|go|goes|take|takes|make|makes|hard)\b"
+SEVERAL_PARTS = SEVERAL_CLAUSES + r"|\band\b"
+WARD = r"\b(?P<side>left|right)ward"
+ANY_SIDE = r"\b(?P<side>left|right)(?:wards?)?\b"
+MOVES_ON = JUMPS + r"|\bstep\w*|\bmov\w*|\blung\w*|\bcrawl"
+STEPS_OR_TURNS = r"\b(?:step|mov|turn|approach|spin)\w*"
+FROM = r"\b(?:from|off|out)\b"  # one rises from what is named behind it
+RISES = r"\b{rise}"
+MANY_JUMPS = r"hopping|hops|jacks?\b|bounding|rope|jump\w* (?:around|on the spot|along)\b"
+LEG_ACTS = r"\b(?:kick|hop|lunge|stomp|balanc)\w*"
+ARM_ACTS = r"\b(?:{armact}|{hand})\b|punch|throw|wav|rais"
+PAIR = r"both|two|arms|hands"
+PAIR_WAVES = r"both|two|arms wav|wav\w* (?:\w+ )?(?:arms|hands)"
