@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from motionrt.formats import Rig, RigMotion
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Motion(Frames):
     """``F`` frames of a character: Y up, metres, facing +Z in the rest pose, its left is +X.
 
