@@ -84,8 +84,9 @@ class Sessions:
     def run(
         self, model: str, outputs: list[str], feeds: Arrays, variant: str | None = None
     ) -> list[npt.NDArray[np.float32]]:
-        """Run a model and give the named outputs, in that order."""
-        results: list[npt.NDArray[np.float32]] = self.session(model, variant).run(outputs, dict(feeds))
+        """Run a model and give the named outputs, in that order; switches that are not given are on."""
+        session = self.session(model, variant)
+        results: list[npt.NDArray[np.float32]] = session.run(outputs, {**switches_on(session), **feeds})
         return results
 
     def _try_to_open(self, model: str, variant: str | None) -> None:
@@ -97,6 +98,12 @@ class Sessions:
         content = verified(self.manifest, chosen)
         options = self._options if self._options is not None else quiet_options(self.threads)
         return open_session(content, options, self.providers)
+
+
+def switches_on(session: InferenceSession) -> dict[str, npt.NDArray[np.bool_]]:
+    """True for every input that is a single bool: ``embed`` of the text model."""
+    inputs = session.get_inputs()
+    return {info.name: np.array(True) for info in inputs if info.type == "tensor(bool)" and not info.shape}
 
 
 def quiet_options(threads: int) -> SessionOptions:

@@ -24,7 +24,7 @@ IntArray = npt.NDArray[np.int64]
 
 MODEL = "tmr_text"
 EMBED = "embed"
-"""Input of the model that need not be given; false leaves out what only a search needs."""
+"""Input of the model; false leaves out what only a search needs."""
 
 
 @dataclass(frozen=True, eq=False)
