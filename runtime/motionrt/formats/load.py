@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -14,9 +13,11 @@ from motionrt.formats.leading_pose import drop_leading_tpose
 from motionrt.formats.smpl import read_npz, write_npz
 from motionrt.formats.text import require_file
 from motionrt.formats.units import units_per_metre
+from motionrt.motion.checks import checked_fps
 from motionrt.motion.motion import Motion
 from motionrt.rigs.clip import RigClip
 from motionrt.rigs.retarget_in import to_smpl24
+from motionrt.untrusted.files import as_path
 
 MOTION_SUFFIXES = (".bvh", ".amc", ".npz", ".glb")
 """What :func:`load_motion` reads, in any mixture of upper and lower case."""
@@ -48,10 +49,10 @@ def load_rig(
         FormatError: the file cannot be read; names file, line (where there are lines) and reason.
         InvalidInputError: the suffix is unknown, or ``fps`` is not positive.
     """
-    path = Path(path)
+    path = as_path(path)
     require_file(path)
-    if fps is not None and not (math.isfinite(fps) and fps > 0):
-        raise InvalidInputError(f"fps must be a positive number, not {fps}")
+    if fps is not None:
+        fps = checked_fps(fps)
     suffix = _suffix(path, MOTION_SUFFIXES, "read")
     try:
         if suffix == ".bvh":
@@ -107,7 +108,7 @@ def save_motion(motion: Motion, path: str | Path, *, units: str | None = None, t
     Raises:
         InvalidInputError: another suffix, options that the format does not have, or the file cannot be written.
     """
-    path = Path(path)
+    path = as_path(path)
     suffix = _suffix(path, WRITABLE_SUFFIXES, "written")
     if suffix == ".bvh":
         return write_bvh(motion, path, scale=units_per_metre(units or "cm"), t_pose=t_pose)
