@@ -15,6 +15,7 @@ from motionrt_training.networks.egocentric import to_egocentric
 from motionrt_training.networks.latent_denoiser import LatentDenoiser
 from motionrt_training.networks.minilm import MiniLM
 from motionrt_training.networks.pose_prior import PosePrior, to_6d
+from motionrt_training.networks.student import TextStudent
 from motionrt_training.networks.temos import Temos
 from motionrt_training.networks.tmr import TMR
 from motionrt_training.networks.transnet import TransNet
@@ -29,6 +30,14 @@ def tiny_tmr(patch: int = 1, layers: int = 2) -> TMR:
     model = TMR(layers=layers, ff=64, patch=patch, dropout=0.0)
     model.motion_mean.normal_(0.0, 0.5)
     model.motion_std.uniform_(0.01, 0.5)
+    return model.eval().requires_grad_(False)
+
+
+def tiny_student(words: int = 64) -> TextStudent:
+    """A small text tower of two thin layers, 2000 words."""
+    torch.manual_seed(10)
+    model = TextStudent(vocabulary=2000, words=words, d=64, layers=2, heads=2, ff=64, out=256)
+    model.positions.data.normal_(0.0, 0.1)
     return model.eval().requires_grad_(False)
 
 
@@ -107,6 +116,7 @@ def _standing(mean: torch.Tensor) -> None:
 NOTES = {"seed": "3", "steps": "10", "minutes": "0.123", "measures": '{"test_R1": 12.345, "val_R1": 1}'}
 MAKERS = {
     TMR: tiny_tmr,
+    TextStudent: tiny_student,
     WalkNet: tiny_walknet,
     TransNet: tiny_transnet,
     PosePrior: tiny_pose_prior,

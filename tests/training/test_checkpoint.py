@@ -15,6 +15,7 @@ from motionrt_training.networks.walknet import WalkNet  # noqa: E402
 
 TINY = {
     "tmr": {"d": 32, "layers": 1, "heads": 2, "ff": 32},
+    "text_student": {"vocabulary": 50, "words": 16, "d": 32, "layers": 1, "heads": 2, "ff": 32, "out": 32},
     "walknet": {"d": 32, "layers": 1, "heads": 2, "ff": 32},
     "transnet": {"d": 32, "layers": 1, "heads": 2, "ff": 32},
     "pose_prior": {"latent": 4, "width": 16},

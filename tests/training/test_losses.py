@@ -64,7 +64,8 @@ def test_info_nce_leaves_dropped_negatives_out_of_the_denominator() -> None:
 def test_margin_loss_by_hand() -> None:
     text, motion = torch.tensor([[0.0], [1.0]]), torch.tensor([[0.5], [3.0]])
     # own: 0.25 and 4, mean 2.125; others: distances 3 and 0.5 -> pushes 0 and 0.25, mean 0.125
-    assert float(L.margin_loss(text, motion)) == pytest.approx(2.25, rel=1e-4)
+    own = torch.eye(len(text), dtype=torch.bool)
+    assert float(L.margin_loss(text, motion, own, ~own)) == pytest.approx(2.25, rel=1e-4)
 
 
 def test_reconstruction_ignores_what_the_mask_hides() -> None:
@@ -77,3 +78,31 @@ def test_reconstruction_ignores_what_the_mask_hides() -> None:
 
 def test_latent_distance_is_smooth_l1() -> None:
     assert float(L.latent_distance(torch.tensor([[0.0, 0.0]]), torch.tensor([[0.5, 3.0]]))) == pytest.approx(1.3125)
+
+
+def test_paired_nce_of_one_motion_a_text_is_info_nce() -> None:
+    generator = torch.Generator().manual_seed(3)
+    text, motion = torch.randn(5, 8, generator=generator), torch.randn(5, 8, generator=generator)
+    own = torch.eye(5, dtype=torch.bool)
+    keep = torch.rand(5, 5, generator=generator) > 0.3
+    found = L.paired_nce(text, motion, own, keep.float(), 0.2)
+    torch.testing.assert_close(found, L.info_nce(text, motion, keep, 0.2))
+
+
+def test_paired_nce_by_hand_where_a_text_has_two_motions_and_a_negative_counts_three_times() -> None:
+    text = torch.tensor([[1.0, 0.0]])
+    motion = torch.tensor([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0]])
+    positive = torch.tensor([[True, True, False]])
+    negative = torch.tensor([[0.0, 0.0, 3.0]])
+    e = math.exp
+    by_text = [-math.log(e(1) / (e(1) + 3 * e(-1))), -math.log(1 / (1 + 3 * e(-1)))]  # by motion nothing is against
+    expected = 0.5 * sum(by_text) / 2
+    assert float(L.paired_nce(text, motion, positive, negative, 1.0)) == pytest.approx(expected, rel=1e-5)
+
+
+def test_slot_loss_is_the_mean_cross_entropy_of_known_slots() -> None:
+    logits = torch.tensor([[2.0, 0.0, 1.0, 1.0, 1.0], [0.0, 1.0, 3.0, 0.0, 0.0]])
+    slots = torch.tensor([[1, 0], [0, 1]])  # the first knows its first slot (of 2), the second its second (of 3)
+    e = math.exp
+    expected = (-math.log(e(2) / (e(2) + 1)) - math.log(e(3) / (e(3) + 2))) / 2
+    assert float(L.slot_loss(logits, slots, [2, 3])) == pytest.approx(expected, rel=1e-5)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib.util
 
+import numpy as np
 import pytest
 
 torch = pytest.importorskip("torch", reason="training tests need torch (extra 'train')")
@@ -56,3 +57,13 @@ def test_other_weights_than_the_published_ones_are_refused(tmp_path: object) -> 
     (folder / "model.safetensors").write_bytes(b"not the weights")
     with pytest.raises(ValueError, match="sha256"):
         MiniLM.from_folder(folder, sha256="0" * 64)
+
+
+@needs_package
+def test_texts_read_together_have_the_features_of_texts_read_alone() -> None:
+    backbone = MiniLMBackbone()
+    texts = ["jump", "a person walks forward and turns to the left, then waves", "kick with the right leg"]
+    for text, (tokens, sentence) in zip(texts, backbone.encode_together(texts), strict=True):
+        alone, whole = backbone.encode(text)
+        np.testing.assert_allclose(tokens, alone, atol=2e-5)
+        np.testing.assert_allclose(sentence, whole, atol=2e-6)

@@ -19,7 +19,7 @@ from motionrt_training.trainer import Schedule, Trainer
 
 
 def corpus_of(frames: int = 60) -> PackedCorpus:
-    features = np.concatenate([guo263.encode(walking(frames)), guo263.encode(walking(frames, turn=0.5))])
+    features = np.concatenate([guo263.encode(walking(frames)), guo263.encode(walking(frames, turn=0.05))])
     clips = tuple(
         PackedClip(split, split, start, frames, ("walk left",), ("walk right",))
         for split, start in (("train", 0), ("val", frames))
@@ -64,7 +64,7 @@ def test_training_lowers_the_held_out_loss_and_its_checkpoint_makes_a_gallery(
     prompts = tmp_path / "prompts.txt"
     prompts.write_text("# seconds | prompt\n2 | a person walks\n\n1.5 | a person waves\n", encoding="utf-8")
     monkeypatch.setattr(starter, "PROMPTS", prompts)
-    monkeypatch.setattr(starter, "Runtime", lambda: Runtime(TINY))
+    monkeypatch.setattr(starter, "Runtime", lambda text_tower: Runtime(TINY, text_tower=text_tower))
     monkeypatch.setattr(starter, "FARTHEST", np.inf)
     monkeypatch.setattr(starter, "RECOGNISED", -1.0)
     monkeypatch.setattr(starter, "_between_floor_and_ceiling", lambda motion: True)

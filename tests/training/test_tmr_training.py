@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import signal
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -14,10 +15,11 @@ torch = pytest.importorskip("torch", reason="training tests need torch (extra 't
 pytest.importorskip("safetensors", reason="training tests need safetensors (extra 'train')")
 pytest.importorskip("tqdm", reason="training tests need tqdm (extra 'train')")
 
-from motionrt_training.augment import Augmentation, View, draw_view, view_motion, view_text  # noqa: E402
+from motionrt_training.augment import Augmentation, View, draw_view, view_motion, view_slots, view_text  # noqa: E402
+from motionrt_training.batches import EpochPlan  # noqa: E402
 from motionrt_training.checkpoint import load_any, load_release, load_state, release  # noqa: E402
 from motionrt_training.networks.tmr import TMR  # noqa: E402
-from motionrt_training.packed import PackedClip, PackedCorpus, load_packed, statistics  # noqa: E402
+from motionrt_training.packed import PackedClip, PackedCorpus, Window, load_packed, statistics  # noqa: E402
 from motionrt_training.recipes.tmr import parser  # noqa: E402
 from motionrt_training.text_cache import TextFeatures, cached_features  # noqa: E402
 from motionrt_training.tmr_task import TmrSettings, TmrTask  # noqa: E402
@@ -128,7 +130,7 @@ def test_alternate_reconstruction_is_that_of_both_on_average() -> None:
     both, alternate = (TmrSettings(reconstruct=name, dropout=0.0, speed=0.0) for name in ("both", "alternate"))
     task = task_of(TmrSettings(**{**vars(TINY), "dropout": 0.0}))
     batch = task.batch(0)
-    motion, mask = task.model.normalise(batch["motion"]), batch["mask"]
+    motion, mask = task.model.normalise(batch["motion"])[:8], batch["mask"][:8]  # without the mirror images
     latents = torch.randn(2, 8, 32)
 
     def term(settings: TmrSettings) -> float:
@@ -149,6 +151,8 @@ def test_a_mirrored_motion_comes_with_its_mirrored_text() -> None:
             assert ("right" in text) == view.mirror
             expected = -source if view.mirror else source
             np.testing.assert_allclose(batch["motion"][row, 0], expected.astype(np.float32))
+            twin = batch["motion"][row + len(batch["motion"]) // 2, 0]
+            np.testing.assert_allclose(twin, -expected.astype(np.float32))
             seen.add(view.mirror)
     assert seen == {True, False}
 
@@ -223,3 +227,46 @@ def test_every_setting_is_an_option() -> None:
     args = parser().parse_args([*needed, *options])
     assert (args.threshold, args.contrastive, args.minutes, args.bf16) == (None, False, 5.0, False)
     assert parser().parse_args(needed).threshold == 0.8
+
+
+def test_a_sided_caption_is_told_from_the_mirror_image_of_its_clip() -> None:
+    batch = task_of().batch(0)
+    positive, negative = batch["positive"].numpy(), batch["negative"].numpy()
+    assert positive.shape == (16, 16)  # 8 clips and their mirror images, as many captions: "left" and "right"
+    assert (positive.sum(0) == 1).all()
+    assert (positive.sum(1) == 1).all()
+    for text, motion in zip(*np.nonzero(positive), strict=True):
+        assert negative[text, (motion + 8) % 16] == TINY.hard
+    assert not (positive & (negative > 0)).any()
+
+
+def test_a_caption_without_a_side_goes_with_both_images_of_its_clip() -> None:
+    task = task_of()
+    clips = tuple(replace(clip, texts=("wave",), texts_mirror=("wave",)) for clip in task.corpus.clips)
+    task.clips, task.index["wave"] = [clip for clip in clips if clip.split == "train"], 0
+    batch = task.batch(0)
+    assert batch["positive"].shape == (1, 16)
+    assert bool(batch["positive"].all())
+    assert not bool(batch["negative"].any())
+
+
+def test_a_clip_whose_caption_names_a_turn_is_told_from_itself_without_the_turn() -> None:
+    features = np.ones((30, 263), dtype=np.float16)
+    clip = PackedClip("a", "train", 0, 30, ("turn left",), ("turn right",))
+    task = task_of()
+    task.corpus = PackedCorpus(features, (clip,))
+    task.clips, task.plan = [clip], EpochPlan([clip], 1, Augmentation(speed=0.0), 1)
+    task.index = {"turn left": 0, "turn right": 1}
+    batch = task.batch(0)
+    np.testing.assert_array_equal(batch["motion"][2:, :, 0], 0.0)  # the turn of the clip and of its mirror image
+    assert bool((batch["motion"][:2, :, 0] != 0).all())
+    np.testing.assert_array_equal(batch["negative"][:, 2:], TINY.hard * np.eye(2))
+
+
+def test_windows_bring_their_texts_and_slots_into_the_views() -> None:
+    own = Window(4, 10, (1,), (2,), ("hop",), ("hop",))
+    clip = PackedClip("a", "train", 0, 30, ("walk",), ("walk",), (Window(0, 30, (3,), (4,)), own))
+    rng = np.random.default_rng(0)
+    views = [draw_view(clip, Augmentation(speed=0.0, spoken=0.5), rng) for _ in range(60)]
+    said = {(view_text(clip, v), v.first, v.frames, view_slots(clip, v)) for v in views}
+    assert said == {("walk", 0, 30, (3,)), ("walk", 0, 30, (4,)), ("hop", 4, 10, (1,)), ("hop", 4, 10, (2,))}

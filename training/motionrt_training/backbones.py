@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, Protocol
 
 import numpy as np
 import torch
 from numpy.typing import NDArray
+from torch import nn
 
 from motionrt_training.networks.minilm import MAX_TOKENS, SHA256, MiniLM, mean_pooled, package_folder
 
@@ -50,6 +52,15 @@ class MiniLMBackbone:
         mask = torch.ones_like(ids)
         tokens = self.model(ids, mask)
         return tokens[0].numpy(), mean_pooled(tokens, mask)[0].numpy()
+
+    @torch.no_grad()
+    def encode_together(self, texts: Sequence[str]) -> list[Encoded]:
+        """The same for several texts in one pass."""
+        ids = [torch.tensor(one.ids) for one in self.tokenizer.encode_batch(list(texts))]
+        mask = nn.utils.rnn.pad_sequence([torch.ones_like(one) for one in ids], batch_first=True)
+        tokens = self.model(nn.utils.rnn.pad_sequence(ids, batch_first=True), mask)
+        sentences = mean_pooled(tokens, mask).numpy()
+        return [(row[: len(one)].numpy(), sentence) for row, one, sentence in zip(tokens, ids, sentences, strict=True)]
 
 
 class OnnxBackbone:

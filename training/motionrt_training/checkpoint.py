@@ -19,6 +19,7 @@ from torch import Tensor, nn
 
 from motionrt_training.networks.latent_denoiser import LatentDenoiser
 from motionrt_training.networks.pose_prior import PosePrior
+from motionrt_training.networks.student import TextStudent
 from motionrt_training.networks.temos import Temos
 from motionrt_training.networks.tmr import TMR
 from motionrt_training.networks.transnet import TransNet
@@ -26,6 +27,7 @@ from motionrt_training.networks.walknet import WalkNet
 
 NETWORKS: Mapping[str, type[nn.Module]] = {
     "tmr": TMR,
+    "text_student": TextStudent,
     "walknet": WalkNet,
     "transnet": TransNet,
     "pose_prior": PosePrior,

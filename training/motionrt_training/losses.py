@@ -44,7 +44,7 @@ def cosine_matrix(text: Tensor, motion: Tensor) -> Tensor:
 
 
 def info_nce(text: Tensor, motion: Tensor, keep: Tensor | None = None, temperature: float = 0.1) -> Tensor:
-    """InfoNCE in both directions (TMR eq. 2), mean of the two.
+    """InfoNCE in both directions (TMR eq. 1), mean of the two.
 
     `keep` (B, B) bool: False drops a pair from both denominators; the diagonal is always kept.
     """
@@ -56,14 +56,38 @@ def info_nce(text: Tensor, motion: Tensor, keep: Tensor | None = None, temperatu
     return 0.5 * (F.cross_entropy(logits, target) + F.cross_entropy(logits.T, target))
 
 
-def margin_loss(text: Tensor, motion: Tensor, keep: Tensor | None = None, margin: float = 1.0) -> Tensor:
+def paired_nce(text: Tensor, motion: Tensor, positive: Tensor, negative: Tensor, temperature: float = 0.1) -> Tensor:
+    """InfoNCE (TMR eq. 1) where a text may have several motions, as a clip and its mirror image with one caption.
+
+    text (T, d), motion (M, d); `positive` (T, M) bool: the pairs; `negative` (T, M): 0 drops a pair from both
+    denominators, a weight above 1 counts it as so many negatives. Every pair is told from the negatives of its text,
+    and from those of its motion; other pairs of the same text or motion stay out. The mean over all pairs.
+    """
+    logits = cosine_matrix(text, motion) / temperature
+    against = logits + negative.clamp(min=1e-30).log()
+    against = against.masked_fill(positive | (negative == 0), float("-inf"))
+    own = logits[positive]
+    rows, columns = positive.nonzero(as_tuple=True)
+    by_text = F.softplus(against.logsumexp(1)[rows] - own)
+    by_motion = F.softplus(against.logsumexp(0)[columns] - own)
+    return 0.5 * (by_text.mean() + by_motion.mean())
+
+
+def slot_loss(logits: Tensor, slots: Tensor, sizes: list[int]) -> Tensor:
+    """Cross entropy of what is known of each slot: logits (N, sum of sizes), slots (N, S), 0 is unknown."""
+    terms = [
+        F.cross_entropy(part.float(), column - 1, ignore_index=-1, reduction="sum")
+        for part, column in zip(logits.split(sizes, dim=1), slots.unbind(1), strict=True)
+    ]
+    return torch.stack(terms).sum() / (slots > 0).sum().clamp(min=1)
+
+
+def margin_loss(text: Tensor, motion: Tensor, positive: Tensor, negative: Tensor, margin: float = 1.0) -> Tensor:
     """Contrastive margin loss on Euclidean distances of the latents (Hadsell et al. 2006; TMR table 3).
 
-    Pairs are pulled together (squared distance), kept negatives pushed beyond `margin`.
+    Pairs `positive` (T, M) are pulled together (squared distance), `negative` ones (T, M) pushed beyond `margin`.
     """
     text, motion = text.float(), motion.float()
-    squared = (text[:, None] - motion[None]).square().sum(-1)  # (B, B)
-    own = torch.eye(len(squared), dtype=torch.bool, device=squared.device)
+    squared = (text[:, None] - motion[None]).square().sum(-1)  # (T, M)
     push = (margin - (squared + 1e-12).sqrt()).clamp(min=0.0).square()
-    negative = ~own if keep is None else keep & ~own
-    return squared[own].mean() + (push * negative).sum() / negative.sum().clamp(min=1)
+    return squared[positive].mean() + (push * negative).sum() / negative.sum().clamp(min=1)

@@ -7,16 +7,36 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
+from typing import Any, TypeVar, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from motionrt.motion.features import guo263
+from motionrt.motion.skeleton import SMPL22_JOINTS, SMPL24
+
+Floats = TypeVar("Floats", NDArray[np.float16], NDArray[np.float32])
+
+
+@dataclass(frozen=True)
+class Window:
+    """Frames [first, first + frames) of a clip: the slots measured there, and what may be said of just these frames."""
+
+    first: int
+    frames: int
+    slots: tuple[int, ...] = ()
+    slots_mirror: tuple[int, ...] = ()
+    texts: tuple[str, ...] = ()  # none: the clip's own
+    texts_mirror: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
 class PackedClip:
-    """One clip: frames [start, start + length) of the packed features, and what is said of it."""
+    """One clip: frames [start, start + length) of the packed features, and what is said of it.
+
+    `windows`, where the corpus was packed with them, are the stretches that training looks at; clips of one `group`
+    show the same recording and are never negatives of each other.
+    """
 
     id: str
     split: str
@@ -24,6 +44,9 @@ class PackedClip:
     length: int
     texts: tuple[str, ...]
     texts_mirror: tuple[str, ...]
+    windows: tuple[Window, ...] = ()
+    group: str = ""
+    source: str = ""
 
 
 @dataclass(frozen=True)
@@ -45,7 +68,7 @@ class PackedCorpus:
 
     def texts(self) -> list[str]:
         """Every text once, mirrored ones too, in order of appearance."""
-        spoken = (text for clip in self.clips for text in (*clip.texts, *clip.texts_mirror))
+        spoken = (text for clip in self.clips for part in (clip, *clip.windows) for text in _said(part))
         return list(dict.fromkeys(spoken))
 
 
@@ -90,4 +113,45 @@ def _clip(row: dict[str, object], start: int, length: int) -> PackedClip:
     texts, mirror = row["texts"], row["texts_mirror"]
     if not isinstance(texts, list) or not isinstance(mirror, list) or len(texts) != len(mirror) or not texts:
         raise ValueError(f"clip {row['id']}: needs texts and as many texts_mirror")
-    return PackedClip(str(row["id"]), str(row["split"]), start, length, tuple(texts), tuple(mirror))
+    windows = tuple(_window(part) for part in cast("list[list[Any]]", row.get("windows", [])))
+    group, source = str(row.get("group", row["id"])), str(row.get("source", ""))
+    return PackedClip(
+        str(row["id"]), str(row["split"]), start, length, tuple(texts), tuple(mirror), windows, group, source
+    )
+
+
+def _window(part: list[Any]) -> Window:
+    first, frames, *lists = part
+    return Window(first, frames, *(tuple(values) for values in lists))
+
+
+def _said(part: PackedClip | Window) -> tuple[str, ...]:
+    return (*part.texts, *part.texts_mirror)
+
+
+def mirror_columns(features: Floats) -> Floats:
+    """`guo263` features (..., 263) of the mirror image, but for the rotations, which stay: columns change places.
+
+    A thousand times as fast as `guo263.mirror`, and equal to it up to the millimetres by which the left bones of that
+    skeleton differ from the right ones.
+    """
+    return np.asarray(features[..., _SOURCE] * _SIGN.astype(features.dtype))
+
+
+def _mirror_table() -> tuple[NDArray[np.int64], NDArray[np.float32]]:
+    """For every column, the one that it becomes in the mirror (x = 0), and its sign."""
+    source, sign = np.arange(guo263.WIDTH), np.ones(guo263.WIDTH, np.float32)
+    partners = np.array(SMPL24.mirrored_joints[:SMPL22_JOINTS])
+    blocks = (
+        (guo263.POSITIONS, partners[1:] - 1, [-1, 1, 1]),
+        (guo263.VELOCITIES, partners, [-1, 1, 1]),
+        (guo263.CONTACTS, np.array([2, 3, 0, 1]), [1]),
+    )
+    for columns, order, signs in blocks:
+        source[columns] = source[columns].reshape(len(order), -1)[order].ravel()
+        sign[columns] = np.tile(signs, len(order))
+    sign[[guo263.YAW_STEP, guo263.PLANAR.start]] = -1
+    return source, sign
+
+
+_SOURCE, _SIGN = _mirror_table()

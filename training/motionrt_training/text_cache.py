@@ -6,12 +6,15 @@ import hashlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from tqdm import tqdm
 
-from motionrt_training.backbones import Backbone
+from motionrt_training.backbones import Backbone, Encoded
+
+CHUNK = 64  # texts that a backbone reads together
 
 
 @dataclass(frozen=True)
@@ -41,9 +44,9 @@ def cached_features(texts: Sequence[str], backbone: Backbone, folder: str | Path
 
 
 def compute_features(texts: Sequence[str], backbone: Backbone) -> TextFeatures:
-    """Run the backbone over the texts one by one, as it is run when they are searched."""
-    bar = tqdm(texts, desc="texts", unit="text", disable=len(texts) < 50)
-    encoded = [backbone.encode(text) for text in bar]
+    """Run the backbone over the texts: many at once where it can, else one by one, as when they are searched."""
+    with tqdm(total=len(texts), desc="texts", unit="text", disable=len(texts) < 50) as bar:
+        encoded = _encoded(texts, backbone, bar)
     length = np.array([len(tokens) for tokens, _ in encoded], dtype=np.int64)
     return TextFeatures(
         np.concatenate([tokens for tokens, _ in encoded]).astype(np.float16),
@@ -51,6 +54,19 @@ def compute_features(texts: Sequence[str], backbone: Backbone) -> TextFeatures:
         length,
         np.stack([sentence for _, sentence in encoded]).astype(np.float16),
     )
+
+
+def _encoded(texts: Sequence[str], backbone: Backbone, bar: Any) -> list[Encoded]:
+    found: dict[int, Encoded] = {}
+    together = getattr(backbone, "encode_together", None)
+    size = CHUNK if together else 1
+    order = np.argsort([len(text) for text in texts], kind="stable").tolist()  # alike in length: little padding
+    for first in range(0, len(order), size):
+        chosen = order[first : first + size]
+        some = [texts[i] for i in chosen]
+        found |= dict(zip(chosen, together(some) if together else map(backbone.encode, some), strict=True))
+        bar.update(len(chosen))
+    return [found[i] for i in range(len(texts))]
 
 
 def _key(texts: Sequence[str], fingerprint: str) -> str:

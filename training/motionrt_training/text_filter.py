@@ -36,6 +36,16 @@ def directions(text: str) -> frozenset[str]:
     return frozenset(found)
 
 
+_PATH = re.compile(
+    r"\b(?:turn|pivot|spin|rotat|circl|circular|curv|spiral|arc|loop|veer|swerv|twirl|revers|about[- ]face|u-turn)"
+)
+
+
+def names_path(text: str) -> bool:
+    """Whether a sentence names a turn, a circle or a curve."""
+    return _PATH.search(text.lower()) is not None
+
+
 def direction_differs(first: Sequence[frozenset[str]], second: Sequence[frozenset[str]]) -> NDArray[np.bool_]:
     """(N,), (M,) sets of `directions` -> (N, M) True where they are not the same."""
     codes = {group: index for index, group in enumerate({*first, *second})}

@@ -2,22 +2,30 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from typing import Any, cast
 
+import numpy as np
 import torch
+from numpy.typing import NDArray
 from torch import Tensor, nn
 
+from motionrt.motion.features import guo263
+from motionrt.text import SLOTS, parse_query, slots_of_text
 from motionrt_training import losses as L
-from motionrt_training.augment import Augmentation, view_motion, view_text
+from motionrt_training.augment import Augmentation, View, mirrored, straightened, view_motion, view_slots, view_text
 from motionrt_training.batches import EpochPlan, padded
 from motionrt_training.networks.actor import Distribution
 from motionrt_training.networks.tmr import TMR
 from motionrt_training.options import option
-from motionrt_training.packed import PackedCorpus, statistics
+from motionrt_training.packed import PackedClip, PackedCorpus, mirror_columns, statistics
 from motionrt_training.text_cache import TextFeatures
-from motionrt_training.text_filter import directions, keep_negatives
-from motionrt_training.validation import split_measures
+from motionrt_training.text_filter import directions, keep_negatives, names_path
+from motionrt_training.validation import contrast_measures, split_measures
+
+UNSEEN = 1e6  # a standard deviation that hides a column
+Look = tuple[PackedClip, View]
 
 
 @dataclass(frozen=True)
@@ -53,35 +61,81 @@ class TmrSettings:
     noise: float = option(0.02, "noise on the normalised features that the encoder sees")
     token_dropout: float = option(0.0, "part of the text tokens hidden in training")
     equalise: bool = option(True, "one standard deviation per kind of feature")
+    rotations: bool = option(True, "the motion encoder sees the rotations, which follow from the positions")
+    decoder_layers: int | None = option(None, "layers of the decoder; none takes --layers")
+    twins: bool = option(True, "the mirror image of every clip and caption is in the same batch")
+    straightened: bool = option(True, "clips whose caption names a path are negatives of it without their turn")
+    hard: float = option(3.0, "how many negatives a mirror image or a straightened clip counts for")
+    slots: float = option(0.3, "weight of telling the measured slots from a motion's latent, the parsed from a text's")
+    spoken: float = option(0.25, "part of the views whose text was made from what was measured")
 
 
 class TmrTask:
     """The task of `Trainer` for a packed corpus and the features of all its texts."""
 
     def __init__(self, corpus: PackedCorpus, texts: TextFeatures, settings: TmrSettings, seed: int) -> None:
+        if corpus.mirror is guo263.mirror and not settings.rotations:
+            corpus = replace(corpus, mirror=mirror_columns)
         self.corpus, self.texts, self.settings = corpus, texts, settings
-        self.index = {text: number for number, text in enumerate(corpus.texts())}
-        self.directions = [directions(text) for text in self.index]
+        self.said = corpus.texts()
+        self.index = {text: number for number, text in enumerate(self.said)}
+        self.directions = [directions(text) for text in self.said]
+        self.slots = text_slots(self.said) if settings.slots and has_slots(corpus) else None
         self.clips = corpus.split("train")
-        rules = Augmentation(settings.mirror, settings.crop, most=settings.most_frames, speed=settings.speed)
-        self.plan = EpochPlan(self.clips, settings.batch, rules, seed, settings.bucket)
+        s = settings
+        rules = Augmentation(s.mirror, s.crop, most=s.most_frames, speed=s.speed, spoken=s.spoken)
+        self.plan = EpochPlan(self.clips, s.batch, rules, seed, s.bucket)
         torch.manual_seed(seed)
         self.model: TMR = build(corpus, texts, settings)
 
     def batch(self, step: int) -> dict[str, Tensor]:
-        """Motion (B, F, 263) raw with mask, tokens (B, T, 384) with mask, keep (B, B)."""
+        """Motions (M, F, 263) raw with mask, tokens (T, N, 384) with mask, positive and negative (T, M), slots.
+
+        The M motions are the clips of the step, their mirror images, and the clips whose turn was taken out.
+        """
         chosen = [(self.clips[clip], view) for clip, view in self.plan.at(step)]
-        motion, mask = padded([view_motion(self.corpus, clip, view) for clip, view in chosen])
-        numbers = [self.index[view_text(clip, view)] for clip, view in chosen]
-        tokens, token_mask = padded([self.texts.of(number) for number in numbers])
-        keep = keep_negatives(
-            self.texts.sentences[numbers],
-            [self.directions[number] for number in numbers],
-            self.settings.threshold,
-            respect_directions=self.settings.directions,
-        )
+        looks = [*chosen, *(mirrored(chosen) if self.settings.twins else ())]
+        rows, owner = distinct([self.index[view_text(clip, view)] for clip, view in looks])
+        shown = [view_motion(self.corpus, clip, view) for clip, view in chosen]
+        if self.settings.twins:
+            shown += [self.corpus.mirror(motion) for motion in shown]
+        bent = self._bent(looks) if self.settings.straightened else []
+        motion, mask = padded([*shown, *(straightened(shown[i]) for i in bent)])
+        tokens, token_mask = padded([self.texts.of(number) for number in rows])
+        positive, negative = self._pairs(looks, rows, owner, bent)
         parts = {"motion": motion, "mask": mask, "tokens": tokens, "token_mask": token_mask}
-        return {**parts, "keep": torch.from_numpy(keep)}
+        parts |= {"positive": torch.from_numpy(positive), "negative": torch.from_numpy(negative)}
+        if self.slots is not None:
+            unknown = (0,) * self.slots.shape[1]
+            seen = np.array([view_slots(clip, view) or unknown for clip, view in looks], dtype=np.int64)
+            parts |= {"slots": torch.from_numpy(seen), "text_slots": torch.from_numpy(self.slots[rows])}
+        return parts
+
+    def _bent(self, looks: Sequence[Look]) -> list[int]:
+        """Which motions turn and are said to."""
+        return [i for i, (clip, view) in enumerate(looks) if names_path(view_text(clip, view))]
+
+    def _pairs(
+        self, looks: Sequence[Look], rows: list[int], owner: NDArray[np.int64], bent: list[int]
+    ) -> tuple[NDArray[np.bool_], NDArray[np.float32]]:
+        """Positive (T, M) and the weights of the negatives (T, M), see `losses.paired_nce`."""
+        s = self.settings
+        groups = [self.directions[number] for number in rows]
+        keep = keep_negatives(self.texts.sentences[rows], groups, s.threshold, respect_directions=s.directions)
+        texts = np.arange(len(rows))[:, None]
+        positive = texts == owner[None]
+        negative = keep[:, owner].astype(np.float32)
+        names = np.array([clip.group for clip, _ in looks])
+        spoken = [{name for name, row in zip(names, owner, strict=True) if row == text} for text in range(len(rows))]
+        related = np.array([[name in group for name in names] for group in spoken])
+        negative = np.where(related, 0.0, negative)
+        twin = np.roll(np.arange(len(looks)), len(looks) // 2) if s.twins else np.arange(0)
+        for own, other in enumerate(twin):  # a sided caption is told from the mirror image of its clip
+            negative[owner[own], other] = s.hard
+        without = np.zeros((len(rows), len(bent)), dtype=np.float32)
+        without[owner[bent], np.arange(len(bent))] = s.hard
+        positive = np.concatenate([positive, np.zeros_like(without, dtype=np.bool_)], axis=1)
+        return positive, np.where(positive, 0.0, np.concatenate([negative, without], axis=1)).astype(np.float32)
 
     def losses(self, model: nn.Module, batch: Any) -> dict[str, Tensor]:
         """The terms of TMR and their weighted sum."""
@@ -90,25 +144,41 @@ class TmrTask:
         seen = motion + s.noise * torch.randn_like(motion) if s.noise else motion
         token_mask = hide(batch["token_mask"], s.token_dropout)
         text, moved = model(batch["tokens"], token_mask, seen, mask)
-        z_text, z_motion = text.sample(), moved.sample()
-        terms = {"kl": L.kl_terms(text, moved), "latent": L.latent_distance(z_text, z_motion)}
+        pairs = batch["positive"].nonzero(as_tuple=True)
+        said = Distribution(text.mu[pairs[0]], text.logvar[pairs[0]])  # (P, d): the text of every pair
+        shown = Distribution(moved.mu[pairs[1]], moved.logvar[pairs[1]])
+        z_text, z_motion = said.sample(), shown.sample()
+        terms = {"kl": L.kl_terms(said, shown), "latent": L.latent_distance(z_text, z_motion)}
         loss = s.kl_weight * terms["kl"] + s.latent_weight * terms["latent"]
         if s.reconstruction:
-            terms["reconstruction"] = self._reconstruction(z_text, z_motion, motion, mask)
+            few = pairs[1] < s.batch  # mirror images bring nothing new to a decoder that sees both sides
+            part = (z_text[few], z_motion[few], motion[pairs[1][few]], mask[pairs[1][few]])
+            terms["reconstruction"] = self._reconstruction(*part)
             loss = loss + terms["reconstruction"]
         if s.contrastive:
-            terms["contrastive"] = self._contrastive(text, moved, z_text, z_motion, batch["keep"])
+            terms["contrastive"] = self._contrastive(text, moved, batch)
             loss = loss + s.contrastive_weight * terms["contrastive"]
+        if "slots" in batch:
+            terms |= self._slots(text, moved, batch)
+            loss = loss + s.slots * (terms["motion_slots"] + terms["text_slots"])
         return {"loss": loss, **terms}
 
-    def _contrastive(
-        self, text: Distribution, motion: Distribution, z_text: Tensor, z_motion: Tensor, keep: Tensor
-    ) -> Tensor:
+    def _contrastive(self, text: Distribution, motion: Distribution, batch: Any) -> Tensor:
         s = self.settings
-        left, right = (z_text, z_motion) if s.contrast == "sample" else (text.mu, motion.mu)
+        left, right = (text.sample(), motion.sample()) if s.contrast == "sample" else (text.mu, motion.mu)
+        positive, negative = batch["positive"], batch["negative"]
         if s.margin:
-            return L.margin_loss(left, right, keep, s.margin_size)
-        return L.info_nce(left, right, keep, s.temperature)
+            return L.margin_loss(left, right, positive, negative > 0, s.margin_size)
+        return L.paired_nce(left, right, positive, negative, s.temperature)
+
+    def _slots(self, text: Distribution, motion: Distribution, batch: Any) -> dict[str, Tensor]:
+        read, sizes = self.model.slots, self.model.config["slots"]
+        assert read is not None
+        shown = read(motion.mu[: len(batch["slots"])])
+        return {
+            "motion_slots": L.slot_loss(shown, batch["slots"], sizes),
+            "text_slots": L.slot_loss(read(text.mu), batch["text_slots"], sizes),
+        }
 
     def _reconstruction(self, z_text: Tensor, z_motion: Tensor, motion: Tensor, mask: Tensor) -> Tensor:
         """From text plus from motion; `alternate` decodes one per motion: equal on average, half the work."""
@@ -120,20 +190,46 @@ class TmrTask:
         return 2.0 * L.reconstruction(decoded, motion, mask).mean()
 
     def validate(self, model: nn.Module) -> dict[str, float]:
-        """Retrieval on the validation split, whose mean recall is the score; the test split is watched."""
+        """Retrieval, sides and turns on the validation split, whose mean is the score; the test split is watched."""
         network = cast("TMR", model)
         data = (self.corpus, self.texts, self.index)
-        measures = split_measures(network, *data, "val", self.settings.most_frames)
-        test = split_measures(network, *data, "test", self.settings.most_frames)
+        both = [
+            split_measures(network, *data, split, self.settings.most_frames)
+            | contrast_measures(network, *data, split, self.settings.most_frames)
+            for split in ("val", "test")
+        ]
+        measures, test = both
+        measures["score"] = float(np.mean([measures[name] for name in ("score", "side", "path") if name in measures]))
         return {**measures, **{f"test_{name}": value for name, value in test.items()}}
+
+
+def has_slots(corpus: PackedCorpus) -> bool:
+    """Whether the corpus was packed with what its windows measure."""
+    return any(clip.windows and clip.windows[0].slots for clip in corpus.clips)
+
+
+def text_slots(texts: Sequence[str]) -> NDArray[np.int64]:
+    """What each text says of every slot (N, S), 0 where it says nothing."""
+    return np.stack([slots_of_text(parse_query(text)) for text in texts]).astype(np.int64)
+
+
+def distinct(numbers: Sequence[int]) -> tuple[list[int], NDArray[np.int64]]:
+    """Every number once, in order of appearance, and where each of `numbers` is found among them."""
+    rows = list(dict.fromkeys(numbers))
+    place = {number: row for row, number in enumerate(rows)}
+    return rows, np.array([place[number] for number in numbers])
 
 
 def build(corpus: PackedCorpus, texts: TextFeatures, settings: TmrSettings) -> TMR:
     """The network of the settings, with the statistics of the training split."""
     s = settings
     width = corpus.features.shape[1]
-    model = TMR(texts.tokens.shape[1], width, s.d, s.layers, s.heads, s.ff, s.dropout, s.patch)
+    slots = [size - 1 for size in SLOTS.values()] if s.slots and has_slots(corpus) else []
+    sizes = (s.d, s.layers, s.heads, s.ff, s.dropout, s.patch, s.decoder_layers)
+    model = TMR(texts.tokens.shape[1], width, *sizes, slots)
     mean, std = statistics(corpus, equalise=s.equalise)
+    if width == guo263.WIDTH and not s.rotations:
+        std[guo263.ROTATIONS] = UNSEEN
     model.motion_mean.copy_(torch.from_numpy(mean))
     model.motion_std.copy_(torch.from_numpy(std))
     return model

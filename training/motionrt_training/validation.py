@@ -12,6 +12,7 @@ from torch import Tensor
 
 from motionrt.metrics import retrieval
 from motionrt_training.batches import padded
+from motionrt_training.contrasts import contrast_scores
 from motionrt_training.losses import info_nce
 from motionrt_training.networks.tmr import TMR
 from motionrt_training.packed import PackedCorpus
@@ -43,6 +44,25 @@ def split_measures(
     measures = {name: float(np.mean([row[name] for row in rows])) for name in rows[0]}
     measures["score"] = float(np.mean([value for name, value in measures.items() if "_R" in name]))
     return measures
+
+
+def contrast_measures(
+    model: TMR,
+    corpus: PackedCorpus,
+    texts: TextFeatures,
+    index: Mapping[str, int],
+    split: str,
+    most_frames: int = 200,
+) -> dict[str, float]:
+    """Side test and path test of a split, see `contrast_scores`; {} where no caption counts."""
+    clips = corpus.split(split)
+    return contrast_scores(
+        [clip.texts for clip in clips],
+        [corpus.motion(clip)[:most_frames].astype(np.float32) for clip in clips],
+        lambda said: embed_texts(model, [texts.of(index[text]) for text in said]).numpy(),
+        lambda motions: embed_motions(model, motions).numpy(),
+        corpus.mirror,
+    )
 
 
 def embed_motions(model: TMR, motions: Sequence[NDArray[np.floating]]) -> Tensor:

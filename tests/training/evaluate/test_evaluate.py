@@ -15,10 +15,11 @@ from motionrt.metrics import RECALL_AT
 from motionrt.motion import Motion
 from motionrt.motion.features import guo263
 from motionrt_training.corpora import Clip, MotionCorpus
-from motionrt_training.corpora.pack import pack, read_corpus
+from motionrt_training.corpora.pack import pack, read_corpus, rows_of
+from motionrt_training.evaluate.files import FilesRow
 from motionrt_training.evaluate.moments import evaluate_moments
 from motionrt_training.evaluate.pairs import PairSet, read_pairs
-from motionrt_training.evaluate.protocols import evaluate
+from motionrt_training.evaluate.protocols import by_style, evaluate
 from motionrt_training.evaluate.report import MomentLine, Report, Result
 
 WORDS = ("walk", "run", "jump", "sit")
@@ -76,7 +77,7 @@ def corpus_of(motion: Motion) -> MotionCorpus:
 
 def test_a_packed_corpus_holds_every_clip_and_reads_back_as_pairs(tmp_path: Path) -> None:
     motion = walking(180, fps=30)
-    path = pack(corpus_of(motion), tmp_path / "toy.npz")
+    path = pack(rows_of(corpus_of(motion).motions()), tmp_path / "toy.npz")
     pairs = read_pairs(path, "test")
     expected = guo263.encode(motion.between(0, 3).resample(20))
     np.testing.assert_allclose(pairs.motions[0], expected, atol=2e-3)
@@ -95,7 +96,7 @@ def test_action_labels_become_one_more_text_to_train_on_only(tmp_path: Path) -> 
     clips = tuple(
         Clip(split, Path("a.bvh"), 0.0, None, ("walks",), split, ("walk", "wave")) for split in ("train", "test")
     )
-    path = pack(MotionCorpus("toy", clips, lambda path: walking(30)), tmp_path / "toy.npz")
+    path = pack(rows_of(MotionCorpus("toy", clips, lambda path: walking(30)).motions()), tmp_path / "toy.npz")
     assert read_pairs(path, "train").texts == (("walks", "walk and wave"),)
     assert read_pairs(path, "test").texts == (("walks",),)
 
@@ -114,7 +115,7 @@ class Halves:
         return np.array([[1, 0] if text.startswith("walk") else [0, 1] for text in texts], np.float32)
 
     def embed_motion(self, features: Sequence[np.ndarray]) -> np.ndarray:
-        turning = np.array([np.mean(np.abs(x[:, guo263.YAW_STEP]) > 1e-3) for x in features])
+        turning = np.array([np.mean(np.abs(x[:, guo263.YAW_STEP]) > 0.01) for x in features])
         length = np.array([len(x) for x in features]) / 1000
         return np.stack([1 - turning + length, turning + length], axis=1).astype(np.float32)
 
@@ -134,8 +135,13 @@ def test_moments_of_a_recording_with_two_halves_are_found_and_chance_is_lower() 
 def test_the_report_names_pairs_baselines_and_moments() -> None:
     rows = evaluate(Oracle(), pairs_of(), unlike, styles=1)
     moment = evaluate_moments(Halves(), corpus_of(walking(180, fps=30)), (20,), style=0)
-    page = Report(4, [Result("exported", rows)], [Result("no filter", rows)], [MomentLine("short", moment)]).markdown()
-    assert "4 motion-text pairs" in page
+    styles, contrasts = by_style(Oracle(), pairs_of()), {"side": 90.0, "side_captions": 10.0, "path": 75.0}
+    results = [Result(name, "4 pairs", rows, styles, contrasts) for name in ("exported", "no filter")]
+    files = [("exported", FilesRow(0.99, 0.98, 31))]
+    page = Report("evaluate it", "toy.npz", results[:1], results[1:], files, [MomentLine("short", moment)]).markdown()
+    assert "Written by `evaluate it` from `toy.npz`" in page
     assert "| no filter | 4 | 100.0 |" in page
+    assert "| exported | 4 pairs | 90.0 | 10 | 75.0 | nan |" in page
+    assert "| exported | 31 | 0.9900 | 0.9800 |" in page
     assert "| short | 2 | 1 |" in page
     assert "HumanML3D, (a) all" in page

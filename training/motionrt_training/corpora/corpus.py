@@ -25,6 +25,8 @@ class Clip:
         texts: captions that describe the whole stretch, at least one.
         split: ``train``, ``val`` or ``test``.
         labels: simultaneous action labels, where the data set has them.
+        group: clips of one group show the same recorded stretch; by default a clip is alone.
+        source: the pack that it came in, where a corpus has several.
     """
 
     id: str
@@ -34,6 +36,8 @@ class Clip:
     texts: tuple[str, ...]
     split: str
     labels: tuple[str, ...] = field(default=())
+    group: str = ""
+    source: str = ""
 
     def __post_init__(self) -> None:
         if self.split not in SPLITS:

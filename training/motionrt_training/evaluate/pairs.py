@@ -29,11 +29,11 @@ class PairSet:
         return [texts[style % len(texts)] for texts in self.texts]
 
 
-def read_pairs(path: str | Path, split: str) -> PairSet:
-    """The pairs of ``split`` in a packed corpus; InvalidInputError when it has none."""
+def read_pairs(path: str | Path, split: str, source: str | None = None) -> PairSet:
+    """The pairs of ``split`` in a packed corpus, all or those of one source; InvalidInputError when it has none."""
     corpus = load_packed(path)
-    clips = corpus.split(split)
+    clips = [clip for clip in corpus.split(split) if source in (None, clip.source)]
     if not clips:
-        raise InvalidInputError(f"{path} has no clips in split '{split}'")
+        raise InvalidInputError(f"{path} has no clips in split '{split}'" + (f" of {source}" if source else ""))
     motions = tuple(corpus.motion(clip)[:WINDOW_FRAMES].astype(np.float32) for clip in clips)
     return PairSet(tuple(clip.id for clip in clips), motions, tuple(clip.texts for clip in clips))

@@ -36,6 +36,16 @@ def evaluate(embedder: Embedder, pairs: PairSet, sentences: SentenceEmbedding, s
     return [_average(name, pairs, [run[index][2] for run in runs]) for index, (name, pairs, _) in enumerate(runs[0])]
 
 
+def by_style(embedder: Embedder, pairs: PairSet) -> list[ProtocolRow]:
+    """Protocol (a) for each place in the lists of captions that all pairs have."""
+    motions, styles = embedder.embed_motion(pairs.motions), min(map(len, pairs.texts))
+    rows = []
+    for style in range(styles):
+        found = metrics.all_pairs(embedder.embed_text(pairs.captions(style)) @ motions.T)
+        rows.append(ProtocolRow(f"caption {style + 1}", len(pairs), found.text_to_motion, found.motion_to_text))
+    return rows
+
+
 def _protocols(similarity: FloatArray, text_similarity: metrics.Floats) -> list[tuple[str, int, metrics.Retrieval]]:
     size = len(similarity)
     subset = min(100, size // 2)

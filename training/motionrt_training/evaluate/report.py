@@ -1,10 +1,11 @@
-"""``docs/results.md`` as text."""
+"""The page on search, ``docs/results/search.md``, as text."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+from motionrt_training.evaluate.files import FilesRow
 from motionrt_training.evaluate.moments import MomentRow
 from motionrt_training.evaluate.protocols import ProtocolRow
 from motionrt_training.evaluate.tables import markdown, paper_table, retrieval_table
@@ -12,10 +13,13 @@ from motionrt_training.evaluate.tables import markdown, paper_table, retrieval_t
 
 @dataclass(frozen=True)
 class Result:
-    """One model under all protocols."""
+    """One model on one set of pairs: all protocols, protocol (a) for each caption style, side and path test."""
 
     name: str
+    pairs: str
     rows: Sequence[ProtocolRow]
+    styles: Sequence[ProtocolRow]
+    contrasts: Mapping[str, float]
 
 
 @dataclass(frozen=True)
@@ -28,17 +32,23 @@ class MomentLine:
 
 @dataclass(frozen=True)
 class Report:
-    """Everything that the results page says."""
+    """Everything that the page says."""
 
-    pairs: int
+    command: str
+    corpus: str
     shipped: Sequence[Result]
     baselines: Sequence[Result]
+    files: Sequence[tuple[str, FilesRow]]
     moments: Sequence[MomentLine]
 
     def markdown(self) -> str:
         """The page."""
-        parts = [_INTRODUCTION.format(pairs=self.pairs)]
-        parts += [f"### {result.name}\n\n{_by_protocol(result)}" for result in self.shipped]
+        parts = [_INTRODUCTION.format(command=self.command, corpus=self.corpus)]
+        parts += [f"### {result.name}, {result.pairs}\n\n{_by_protocol(result)}" for result in self.shipped]
+        parts += [_STYLES, *(f"### {r.name}, {r.pairs}\n\n{_by_style(r)}" for r in self.shipped[:1])]
+        parts += [_CONTRASTS, _contrast_table([*self.shipped, *self.baselines])]
+        if self.files:
+            parts += [_FILES, _files_table(self.files)]
         if self.baselines:
             parts += [_BASELINES, _by_model(self.baselines)]
         if self.moments:
@@ -69,29 +79,51 @@ def _moment_table(lines: Sequence[MomentLine]) -> str:
     return markdown(head, body)
 
 
-_INTRODUCTION = """# Results
+def _by_style(result: Result) -> str:
+    return retrieval_table([(row.protocol, row) for row in result.styles])
 
-Written by `python -m motionrt_training.evaluate`; see there for the command. Percent, but for the median rank
-(MedR); t2m: the text is the query, m2t: the motion is.
+
+def _contrast_table(results: Sequence[Result]) -> str:
+    head = ["model", "pairs", "side test", "captions", "turn and path test", "captions"]
+    names = ("side", "side_captions", "path", "path_captions")
+    body = [[r.name, r.pairs, *(f"{r.contrasts.get(n, float('nan')):.{int(not i % 2)}f}" for i, n in enumerate(names))]
+            for r in results]  # fmt: skip
+    return markdown(head, body)
+
+
+def _files_table(files: Sequence[tuple[str, FilesRow]]) -> str:
+    head = ["model", "recordings", "mean cosine", "least"]
+    return markdown(head, [[name, row.recordings, f"{row.mean:.4f}", f"{row.least:.4f}"] for name, row in files])
+
+
+_INTRODUCTION = """# Search: results
+
+Written by `{command}` from `{corpus}`. Percent, but for the median rank (MedR); t2m: the text is the query, m2t: the
+motion is. Embeddings alone: no captions, file names, attributes or re-ranking.
 
 ## Retrieval on the test split
 
-{pairs} motion-text pairs of CMU trials that were never trained on. Every motion has four captions of different
-style (a headline, a sentence, a detailed description, search words); each style is evaluated as a set of its
-own and the results are averaged. Many test clips are nearly alike (a dozen straight walks, a dozen salsa
-clips), which caps R@1 of protocol (a). Chance in (a): R@1 1.3, R@10 12.7, MedR 40. Protocol (c) keeps the less
-alike half of the pairs, as there are fewer than 200."""
+Pairs of recordings that were never trained on. Every motion has captions of different style; each style is evaluated
+as a set of its own and the results are averaged. Many test clips are nearly alike (a dozen straight walks, a dozen
+salsa clips), which caps R@1 of protocol (a). Protocol (c) keeps the less alike half where there are fewer than 200."""
 
-_BASELINES = """## What the contrastive term and the filtering of negatives are worth
+_STYLES = """## Each style of caption, protocol (a)
 
-The same data, network, seed, schedule and number of steps; only the loss differs. Torch modules, averaged
-weights with the best validation. "TEMOS-style" is training without the contrastive term, "no filtering" counts
-every other pair as a negative.
+In the order of the captions file; the last ones are a short query and three further sentences."""
 
-Each was trained with `python -m motionrt_training.recipes.tmr --corpus runs/cmu.npz --out runs/NAME --backbone onnx
---backbone-path models/tmr_text.int8.onnx --steps 700 --lr 4e-4 --warmup 100 --ema 0.99 --dropout 0.15
---token-dropout 0.1 --crop 0.5 --threads 1 --validate-every 100`, with `--no-contrastive` and `--threshold none` for the
-second and third, and evaluated by naming each `runs/NAME/best.pt` with `--baseline "TEXT=PATH"`."""
+_CONTRASTS = """## Sides and paths
+
+Side test: captions with exactly one side word (left, right, clockwise, ...); won when the clip is nearer than its
+mirror image. Turn and path test: those of them that name a turn, a circle or a curve, against the mirror image and the
+clip with its yaw rate set to zero. Ties lose; chance is 50 and 33."""
+
+_FILES = """## One recording, two files
+
+Cosine of the embeddings of the same trials as BVH and as AMC, first 10 s."""
+
+_BASELINES = """## What each part is worth
+
+The same data, seed and number of steps; torch modules, averaged weights."""
 
 _MOMENTS = """## Moments in long recordings
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import torch
 from torch import Tensor, nn
 
@@ -24,6 +26,8 @@ class TMR(nn.Module):
         ff: int = 1024,
         dropout: float = 0.1,
         patch: int = 1,
+        decoder_layers: int | None = None,
+        slots: Sequence[int] = (),
     ) -> None:
         super().__init__()
         self.config = {
@@ -35,10 +39,13 @@ class TMR(nn.Module):
             "ff": ff,
             "dropout": dropout,
             "patch": patch,
+            "decoder_layers": decoder_layers or layers,
+            "slots": list(slots),
         }
         self.text_encoder = ActorEncoder(text_dim, d, layers, heads, ff, dropout)
         self.motion_encoder = ActorEncoder(motion_dim, d, layers, heads, ff, dropout, patch)
-        self.motion_decoder = ActorDecoder(motion_dim, d, layers, heads, ff, dropout, patch)
+        self.motion_decoder = ActorDecoder(motion_dim, d, decoder_layers or layers, heads, ff, dropout, patch)
+        self.slots = nn.Linear(d, sum(slots)) if slots else None  # what either latent says of each slot of motion
         self.register_buffer("motion_mean", torch.zeros(motion_dim))
         self.register_buffer("motion_std", torch.ones(motion_dim))
 

@@ -143,7 +143,7 @@ def make(checkpoint: Path, folder: Path, *, candidates: int = 32, warm_up: int =
     state = load_state(checkpoint)
     network = Continuation(**state["notes"]["network"]).eval()
     network.load_state_dict(state["model"])
-    model = Runtime().model
+    model = Runtime(text_tower="full").model
     motions, texts = [], []
     for index, (seconds, text) in enumerate(read_prompts(PROMPTS)):
         made = roll_outs(network, model, text, round(seconds * guo263.FPS) + warm_up, candidates, index)
@@ -196,7 +196,7 @@ def _motion(features: FloatArray) -> Motion:
 def train(args: argparse.Namespace) -> dict[str, float]:
     """Train into ``args.out``; returns the last validation."""
     schedule, settings = from_namespace(Schedule, args), from_namespace(StarterSettings, args)
-    task = StarterTask(load_packed(args.corpus), Runtime().model, settings, schedule.seed)
+    task = StarterTask(load_packed(args.corpus), Runtime(text_tower="full").model, settings, schedule.seed)
     notes = {**dataclasses.asdict(settings), "network": cast("Continuation", task.model).config}
     return Trainer(task, schedule, args.out, notes).run()
 
