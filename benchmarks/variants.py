@@ -176,7 +176,10 @@ def standard_errors(differences: npt.NDArray[np.float64]) -> npt.NDArray[np.floa
 def generation(variants: Sequence[str], args: argparse.Namespace) -> list[Measure]:
     """The prompts, as the default sampler makes them, feet locked, and the skate of free feet."""
     asked = prompts.read_prompts()[: args.first]
-    judge, texts = Runtime(args.models, threads=1, variant=variants[0]), [prompt.text for prompt in asked]
+    judge, texts = (
+        Runtime(args.models, threads=1, variant=variants[0], text_tower="full"),
+        [prompt.text for prompt in asked],
+    )
     locked, free = [], []
     for variant in variants:
         runtime = Runtime(args.models, threads=1, variant=variant)

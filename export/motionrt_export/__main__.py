@@ -1,15 +1,17 @@
 """Export the trained models.
 
     python -m motionrt_export all --checkpoints models --out models
+    python -m motionrt_export all --only tmr_text tmr_student
     python -m motionrt_export validate --all
     python -m motionrt_export validate --model tmr_text --variant int8 --file models/tmr_text.int8.onnx
     python -m motionrt_export time
     python -m motionrt_export assets
 
-The first command rebuilds the ONNX files and the manifest, and proves every file against torch in a process
-of its own, and what the files make together; whatever is beyond its tolerance ends it with exit code 1. The second
-proves what is there and writes nothing. `time` measures one call of every file beside torch, for the next export. The
-last makes the package data that depends on the models: the embeddings of the starter gallery and of the captions.
+The first command rebuilds the ONNX files and the manifest, and proves every file against torch in a process of its
+own, and what the files make together; whatever is beyond its tolerance ends it with exit code 1. With `--only` files
+and entries of the other models stay as they are. `validate` proves what is there and writes nothing. `time` measures
+one call of every file beside torch, for the next export. `assets` makes the package data that depends on the models:
+the embeddings of the starter gallery and of the captions.
 """
 
 from __future__ import annotations
@@ -24,6 +26,7 @@ from pathlib import Path
 import torch
 
 from motionrt import Runtime
+from motionrt.errors import MotionRTError
 from motionrt_export.layout import Layout
 from motionrt_export.measured import NAME, Measured
 from motionrt_export.pipelines import PIPELINES
@@ -41,7 +44,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     args = parser().parse_args(arguments)
     try:
         command: int = args.run(args)
-    except (ValidationError, FileNotFoundError, ValueError) as error:
+    except (ValidationError, MotionRTError, FileNotFoundError, ValueError) as error:
         print(f"error: {error}", file=sys.stderr)
         return 1
     return command
@@ -55,6 +58,7 @@ def parser() -> argparse.ArgumentParser:
     _add_inputs(everything)
     everything.add_argument("--out", type=Path, default=Path("models"), help="folder of the shipped files")
     everything.add_argument("--build", type=Path, default=Path("build/models"), help="folder of the other files")
+    everything.add_argument("--only", nargs="+", metavar="MODEL", help="only these models; the others stay as they are")
     everything.set_defaults(run=_all)
     proof = commands.add_parser("validate", help="everything that is there, or one file; prints figures as JSON")
     _add_inputs(proof, figures=False)
@@ -90,7 +94,7 @@ def _figures(args: argparse.Namespace) -> Path:
 
 def _all(args: argparse.Namespace) -> int:
     layout = Layout(args.manifest, args.out, args.build)
-    publish(Sources(args.checkpoints), layout, apart(args.checkpoints), Measured.read(_figures(args)), print)
+    publish(Sources(args.checkpoints), layout, apart(args.checkpoints), Measured.read(_figures(args)), print, args.only)
     return 0
 
 
@@ -124,7 +128,7 @@ def _time(args: argparse.Namespace) -> int:
 
 
 def _assets(args: argparse.Namespace) -> int:
-    runtime = Runtime(args.models)
+    runtime = Runtime(args.models, text_tower="full")  # embedded once, read by everyone
     gallery = embed_starter(runtime, args.out / "starter")
     runtime.captions().save(args.out / "captions.npz")
     print(f"{args.out}: a starter gallery of {len(gallery)} motions, and the captions")

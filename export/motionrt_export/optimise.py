@@ -63,6 +63,7 @@ TEXT = Quantisation(
     compensated=("/sentences/",),
     alpha=0.7,
 )
+STUDENT = Quantisation(("/leave/",))
 ENCODER = Quantisation(("/project/",))
 DECODER = Quantisation(("/project/", "/hear/"))
 MOTION = Quantisation(exact=("/aim/", "/answer/"))
@@ -74,6 +75,7 @@ DENOISER = Quantisation(("/read_text/",), exact=("/read_latent/", "/out/"))
 
 CHOICES: dict[str, Quantisation | None] = {
     "tmr_text": TEXT,
+    "tmr_student": STUDENT,
     "tmr_motion": ENCODER,
     "tmr_decoder": DECODER,
     "walknet": MOTION,

@@ -14,6 +14,9 @@ from motionrt_export.entries import Entry, statistic_entry
 from motionrt_export.layout import Layout
 from motionrt_export.sources import Source
 
+RECIPES = {"text_student": "student"}
+"""Recipes that are not called like their network."""
+
 
 def statistics(source: Source, layout: Layout) -> list[Entry]:
     """The arrays about the training data that the checkpoint brings, if the graph holds any of them."""
@@ -30,9 +33,13 @@ def recipe(source: Source, layout: Layout) -> dict[str, Any]:
     if source.release is None:
         return dict(CARDS[source.spec.name].origin)
     notes, checkpoint = source.release.notes, source.release.path
+    settings = json.loads(notes.get("notes", "{}"))
     return {
-        "command": notes.get("command", f"python -m motionrt_training.recipes.{checkpoint.stem}"),
+        "command": notes.get(
+            "command", f"python -m motionrt_training.recipes.{RECIPES.get(checkpoint.stem, checkpoint.stem)}"
+        ),
         **{key: _plain(notes[key]) for key in ("seed", "steps", "minutes") if key in notes},
+        **{key: settings[key] for key in ("teacher_sha256",) if key in settings},
         "checkpoint": _relative(checkpoint, layout.root),
         "checkpoint_sha256": hashlib.sha256(checkpoint.read_bytes()).hexdigest(),
         **CARDS[source.spec.name].origin,

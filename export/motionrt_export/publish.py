@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
 import onnx
 
+from motionrt.retrieval.captions import read_captions
+from motionrt.services.search import DEFAULT_CAPTIONS
 from motionrt_export import calibration, halve
 from motionrt_export.branch import with_switch
 from motionrt_export.cards import CARDS
 from motionrt_export.entries import Entry, file_entry, model_entry, variant_entry, write_manifest
+from motionrt_export.keeping import check_tokenizer, chosen, in_order, kept_entries, with_tokenizer
 from motionrt_export.layout import Layout
 from motionrt_export.measured import Measured
 from motionrt_export.measures import Figures, beyond, rounded
@@ -23,6 +27,7 @@ from motionrt_export.tolerances import pipeline_tolerance, tolerance
 from motionrt_export.trace import trace
 from motionrt_export.validate import ValidationError
 from motionrt_training.networks.minilm import MAX_TOKENS
+from motionrt_training.wording.grammar import sentences
 
 HEADING = "Every shipped model. Written by `python -m motionrt_export all --checkpoints models --out models`."
 
@@ -41,33 +46,50 @@ class Proof:
     pipeline: PipelineCheck
 
 
-def publish(sources: Sources, layout: Layout, proof: Proof, measured: Measured, say: Say) -> None:
+def publish(
+    sources: Sources,
+    layout: Layout,
+    proof: Proof,
+    measured: Measured,
+    say: Say,
+    only: Collection[str] | None = None,
+) -> None:
     """Export, quantise and validate every model, then write the manifest; on failure it is not touched.
+
+    With `only` just these models: what the manifest says of the others stays as it is, and what files make together is
+    proven where one of these owns it.
 
     Raises:
         MissingCheckpointsError: before anything is written.
+        ValueError: `only` names no model, or the manifest that it goes into cannot take it.
         ValidationError: a file, or what the files make together, is beyond its tolerance.
     """
-    sources.check()
-    tokenizer = _publish_tokenizer(sources, layout)
-    entries = {}
-    for name in CHOICES:
-        source = sources.source(name)
-        _export(source, layout)
-        proven = {variant: _variant(name, variant, layout, proof.file, measured, say) for variant in variants(name)}
-        tokens = tokenizer if "input_ids" in [tensor.name for tensor in source.spec.inputs] else None
-        entries[name] = _entry(source, proven, layout, tokens)
+    names = chosen(only)
+    kept = {} if only is None else kept_entries(layout.manifest, names)
+    sources.check(None if only is None else names)
+    tokenizer = _publish_tokenizer(sources, layout, kept)
+    made = {name: _published(sources.source(name), tokenizer, layout, proof.file, measured, say) for name in names}
+    entries = in_order({**with_tokenizer(kept, tokenizer), **made})
     try:
         write_manifest(layout.draft, entries, HEADING)
-        for pipeline in PIPELINES:
+        for pipeline in [name for name, drift in PIPELINES.items() if drift.owner in made]:
             _prove_pipeline(pipeline, entries, proof.pipeline(pipeline, layout.draft), say)
     finally:
         layout.draft.unlink(missing_ok=True)
     write_manifest(layout.manifest, entries, HEADING)
-    for name in CHOICES:
+    for name in names:
         for variant in variants(name):
             layout.tidy(name, variant)
-    say(f"{layout.manifest}: {len(entries)} models")
+    say(f"{layout.manifest}: {len(entries)} models, {len(made)} of them exported")
+
+
+def _published(source: Source, tokenizer: Entry, layout: Layout, check: Check, measured: Measured, say: Say) -> Entry:
+    """The entry of a model whose files are written and proven."""
+    name = source.spec.name
+    _export(source, layout)
+    proven = {variant: _variant(name, variant, layout, check, measured, say) for variant in variants(name)}
+    tokens = dict(tokenizer) if "input_ids" in [tensor.name for tensor in source.spec.inputs] else None
+    return _entry(source, proven, layout, tokens)
 
 
 def _prove_pipeline(pipeline: str, entries: Mapping[str, Entry], found: Mapping[str, Figures], say: Say) -> None:
@@ -102,9 +124,13 @@ def _write(path: Path, content: bytes) -> None:
     temporary.replace(path)
 
 
-def _publish_tokenizer(sources: Sources, layout: Layout) -> Entry:
+def _publish_tokenizer(sources: Sources, layout: Layout, kept: Mapping[str, Entry]) -> Entry:
+    """One file for all models that read text; refused where those that are kept have another."""
     path = layout.out / "tokenizer.json"
-    _write(path, calibration.plain_tokenizer_json(sources.tokenizer_file).encode("utf-8"))
+    said = [*read_captions(DEFAULT_CAPTIONS), *sentences(3000, np.random.default_rng(0))]
+    content = calibration.plain_tokenizer_json(sources.tokenizer_file, said)
+    check_tokenizer(kept, path, content)
+    _write(path, content.encode("utf-8"))
     return {**file_entry(path, layout.root), "max_tokens": MAX_TOKENS}
 
 

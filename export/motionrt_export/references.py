@@ -15,6 +15,7 @@ from motionrt_training.networks.actor import Distribution
 from motionrt_training.networks.latent_denoiser import LatentDenoiser
 from motionrt_training.networks.minilm import MiniLM, mean_pooled
 from motionrt_training.networks.pose_prior import PosePrior
+from motionrt_training.networks.student import TextStudent
 from motionrt_training.networks.temos import Temos
 from motionrt_training.networks.tmr import TMR
 from motionrt_training.networks.transnet import TransNet
@@ -31,6 +32,16 @@ def text_reference(backbone: MiniLM, model: TMR) -> Reference:
         features = backbone(ids, mask)
         sentence = {"token_features": features, "sentence_embedding": mean_pooled(features, mask)}
         return {**_encoded(model.encode_text(features, mask)), **sentence}
+
+    return _reference(run, "input_ids", "attention_mask")
+
+
+def student_reference(model: TextStudent) -> Reference:
+    """Embedding of tokens by the small text tower, and the vector in its direction."""
+
+    def run(ids: Tensor, mask: Tensor) -> dict[str, Tensor]:
+        latent = model(ids, mask)
+        return {"embedding": torch.nn.functional.normalize(latent, dim=-1), "latent": latent}
 
     return _reference(run, "input_ids", "attention_mask")
 

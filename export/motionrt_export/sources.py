@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property, partial
 from pathlib import Path
@@ -19,7 +19,7 @@ from motionrt_export.drift import TransitionDrift, WalkDrift
 from motionrt_export.examples import Examples, Feeds, Motions, Sentences, random_examples
 from motionrt_export.generation_drift import DecoderDrift, DenoiserDrift
 from motionrt_export.generation_graphs import LatentDenoiserGraph, TemosDecoderGraph, TemosMotionGraph, TemosTextGraph
-from motionrt_export.graphs import DecoderGraph, MotionEncoderGraph, TextGraph
+from motionrt_export.graphs import DecoderGraph, MotionEncoderGraph, StudentGraph, TextGraph
 from motionrt_export.motion_graphs import TransNetGraph, WalkNetGraph
 from motionrt_export.noising import Noised
 from motionrt_export.references import Reference
@@ -32,10 +32,26 @@ from motionrt_training.checkpoint import NETWORKS, Network, load_release, networ
 from motionrt_training.networks.latent_denoiser import LatentDenoiser
 from motionrt_training.networks.minilm import MiniLM, package_folder
 from motionrt_training.networks.pose_prior import PosePrior
+from motionrt_training.networks.student import TextStudent
 from motionrt_training.networks.temos import Temos
 from motionrt_training.networks.tmr import TMR
 from motionrt_training.networks.transnet import TransNet
 from motionrt_training.networks.walknet import WalkNet
+
+NEEDS: Mapping[str, tuple[type[nn.Module], ...]] = {
+    specs.TMR_TEXT.name: (TMR,),
+    specs.TMR_STUDENT.name: (TextStudent,),
+    specs.TMR_MOTION.name: (TMR,),
+    specs.TMR_DECODER.name: (TMR,),
+    specs.WALKNET.name: (WalkNet,),
+    specs.TRANSNET.name: (TransNet, WalkNet, PosePrior),
+    specs.POSE_PRIOR.name: (PosePrior,),
+    specs.TEMOS_TEXT.name: (Temos,),
+    specs.TEMOS_MOTION.name: (Temos,),
+    specs.TEMOS_DECODER.name: (Temos,),
+    specs.LATENT_DENOISER.name: (LatentDenoiser, Temos),
+}
+"""The released networks that a graph, its inputs and its trial are made of."""
 
 
 class MissingCheckpointsError(FileNotFoundError):
@@ -84,9 +100,10 @@ class Sources:
         """The file that a network is released in."""
         return self.folder / f"{network_name(network)}.safetensors"
 
-    def check(self) -> None:
-        """Raise MissingCheckpointsError unless all released networks are there."""
-        paths = [self.checkpoint(network) for network in NETWORKS.values()]
+    def check(self, graphs: Collection[str] | None = None) -> None:
+        """Raise MissingCheckpointsError unless the released networks that these graphs need are there; None: all."""
+        needed = NETWORKS.values() if graphs is None else {kind: None for name in graphs for kind in NEEDS[name]}
+        paths = [self.checkpoint(network) for network in needed]
         if missing := [str(path) for path in paths if not path.is_file()]:
             how = "python -m motionrt_training.checkpoint RUN/best.pt --network NAME -o FILE"
             raise MissingCheckpointsError(f"no released model at {', '.join(missing)}; train, then: {how}")
@@ -107,6 +124,11 @@ class Sources:
     def tmr(self) -> Release[TMR]:
         """TMR as released."""
         return self._released(TMR)
+
+    @cached_property
+    def text_student(self) -> Release[TextStudent]:
+        """The small text tower."""
+        return self._released(TextStudent)
 
     @cached_property
     def walknet(self) -> Release[WalkNet]:
@@ -147,6 +169,7 @@ class Sources:
         """The source of the graph called `name`; KeyError for any other name."""
         makers: dict[str, Callable[[], Source]] = {
             specs.TMR_TEXT.name: self._text,
+            specs.TMR_STUDENT.name: self._student,
             specs.TMR_MOTION.name: self._motion,
             specs.TMR_DECODER.name: self._decoder,
             specs.WALKNET.name: self._walknet,
@@ -160,13 +183,20 @@ class Sources:
         return makers[name]()
 
     def _text(self) -> Source:
-        networks, examples, encode = (self.backbone, self.tmr.model), self.sentences, sentence_ids(self.tokenizer_file)
+        networks = self.backbone, self.tmr.model
         module, reference = TextGraph(*networks), references.text_reference(*networks)
+        return self._of_text(specs.TMR_TEXT, module, reference, self.tmr)
+
+    def _student(self) -> Source:
+        model = self.text_student.model
+        module, reference = StudentGraph(model), references.student_reference(model)
+        return self._of_text(specs.TMR_STUDENT, module, reference, self.text_student)
+
+    def _of_text(self, spec: GraphSpec, module: nn.Module, reference: Reference, release: Release[Any]) -> Source:
+        encode = sentence_ids(self.tokenizer_file)
         trial = TextDrift(encode, read_captions(DEFAULT_CAPTIONS)[:: self.every])
         calibration = partial(calibration_feeds, encode)
-        return Source(
-            specs.TMR_TEXT, module, reference, examples, release=self.tmr, calibration=calibration, trial=trial
-        )
+        return Source(spec, module, reference, self.sentences, release=release, calibration=calibration, trial=trial)
 
     def _motion(self) -> Source:
         model = self.tmr.model

@@ -48,7 +48,8 @@ class GraphSpec:
     """A graph's signature; `embeddings` names the outputs that are compared by cosine, row by row.
 
     `length` names the axis that padding extends, `mask` the input that says what is valid; graphs whose lengths are
-    fixed have neither. `switch` spares those who do not want some of the outputs what they cost.
+    fixed have neither; `longest` is as long as it may be. `switch` spares those who do not want some of the outputs
+    what they cost.
     """
 
     name: str
@@ -58,6 +59,7 @@ class GraphSpec:
     mask: str | None = None
     embeddings: tuple[str, ...] = field(default=())
     switch: Switch | None = None
+    longest: int | None = None
 
     @property
     def taken(self) -> tuple[TensorSpec, ...]:
@@ -104,6 +106,23 @@ TMR_TEXT = GraphSpec(
     "attention_mask",
     ("embedding", "token_features", "sentence_embedding"),
     Switch("embed", ("embedding", "latent")),
+)
+TMR_STUDENT = GraphSpec(
+    "tmr_student",
+    (
+        TensorSpec("input_ids", "int64", ("batch", "tokens"), "1", "WordPiece ids with [CLS] and [SEP], at most 128"),
+        _TOKEN_MASK,
+    ),
+    (
+        _EMBEDDING,
+        TensorSpec(
+            "latent", "float32", ("batch", 256), "1", "a vector in the embedding's direction; no latent to decode"
+        ),
+    ),
+    "tokens",
+    "attention_mask",
+    ("embedding", "latent"),
+    longest=128,
 )
 TMR_MOTION = GraphSpec("tmr_motion", (_MOTION, _FRAME_MASK), (_EMBEDDING, _LATENT), "frames", "mask", ("embedding",))
 TMR_DECODER = GraphSpec("tmr_decoder", (_LATENT, _FRAME_MASK), (_MOTION,), "frames", "mask", ())

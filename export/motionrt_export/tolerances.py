@@ -15,6 +15,7 @@ FLOAT32: dict[str, Figures] = {
         "token_features": {"max_abs_error": 1e-4},
         "sentence_embedding": {"max_abs_error": 1e-4},
     },
+    "tmr_student": {"embedding": {"max_abs_error": 1e-4}, "latent": {"max_abs_error": 1e-3}},
     "tmr_motion": {"embedding": {"max_abs_error": 1e-4}, "latent": {"max_abs_error": 1e-3}},
     "tmr_decoder": {"motion": {"max_abs_error": 1e-3}},  # standard deviations of every feature
     "walknet": {"next": {"max_abs_error": 1e-4}, "walk": {"joints_cm_after_1_s": 0.05, **_AS_GOOD}},
@@ -42,7 +43,8 @@ FLOAT16: dict[str, Figures] = {
         "latent": {"cosine_min": 0.9999},
         "token_features": {"cosine_min": 0.9999},
         "sentence_embedding": {"cosine_min": 0.9999},
-    }
+    },
+    "tmr_student": {"embedding": {"cosine_min": 0.9999}, "latent": {"cosine_min": 0.9999}},
 }
 """Released weights are float16 already; only the sentence encoder, and what graphs add to the others, is rounded."""
 INT8: dict[str, Figures] = {
@@ -52,6 +54,11 @@ INT8: dict[str, Figures] = {
         "latent": {"cosine_min": 0.99},
         "token_features": {"cosine_min": 0.98},
         "sentence_embedding": {"cosine_min": 0.995},
+    },
+    "tmr_student": {
+        "alone": {"cosine_min": 0.995},
+        "embedding": {"cosine_min": 0.99},
+        "latent": {"cosine_min": 0.99},
     },
     "tmr_motion": {"embedding": {"cosine_min": 0.995}, "latent": {"cosine_min": 0.995}},
     "tmr_decoder": {"motion": {"rms_error": 0.03}},  # standard deviations of every feature

@@ -16,6 +16,7 @@ from motionrt_export.torch_moves import released
 from motionrt_training.networks.latent_denoiser import LatentDenoiser
 from motionrt_training.networks.minilm import MiniLM
 from motionrt_training.networks.pose_prior import PosePrior
+from motionrt_training.networks.student import TextStudent
 from motionrt_training.networks.temos import Temos
 from motionrt_training.networks.tmr import TMR
 from motionrt_training.networks.transnet import TransNet
@@ -43,6 +44,7 @@ def _call(reference: Reference, feeds: Feeds) -> Call:
 def _references(sentences: MiniLM, folder: Path) -> dict[str, Callable[[], Reference]]:
     return {
         specs.TMR_TEXT.name: lambda: references.text_reference(sentences, released(TMR, folder)),
+        specs.TMR_STUDENT.name: lambda: references.student_reference(released(TextStudent, folder)),
         specs.TMR_MOTION.name: lambda: references.motion_reference(released(TMR, folder)),
         specs.TMR_DECODER.name: lambda: references.decoder_reference(released(TMR, folder)),
         specs.WALKNET.name: lambda: references.walk_reference(released(WalkNet, folder)),

@@ -18,7 +18,7 @@ import torch.nn.functional as F
 from tokenizers import Tokenizer
 from torch import Tensor
 
-from motionrt.bench.finds import CLIPS, TEXT, answer_case, motion_case, search_case
+from motionrt.bench.finds import CLIPS, FULL_TEXT, TEXT, answer_case, motion_case, search_case
 from motionrt.bench.first_answer import peak_mb
 from motionrt.bench.rivals import Rival
 from motionrt.bench.timing import Call
@@ -78,10 +78,11 @@ def open_torch(work: Workload, threads: int, models: str | None = None) -> Rival
 
 
 def text_cases(work: Workload, embed: Embed) -> dict[str, Call]:
-    """A text embedded, and looked for among galleries of every size."""
+    """A text embedded, and looked for among galleries of every size; by the full text tower, which needs no other."""
     texts, vectors = cycle(work.texts), torch.from_numpy(work.vectors)
+    alone = dict.fromkeys((TEXT, FULL_TEXT), lambda: embed(next(texts)))
     answers = {answer_case(n): _answer(vectors[:n], embed, work.texts) for n in work.sizes}
-    return {TEXT: lambda: embed(next(texts)), **answers}
+    return alone | answers
 
 
 def search_cases(work: Workload) -> dict[str, Call]:

@@ -52,8 +52,9 @@ class Subject:
 
     @property
     def tried_lengths(self) -> tuple[int, ...]:
-        """The lengths that are tried: one that nobody reads where the graph's own is fixed."""
-        return self.lengths if self.spec.length else (1,)
+        """The lengths that are tried, none beyond the longest: one that nobody reads where the graph's own is fixed."""
+        longest = self.spec.longest or max(self.lengths)
+        return tuple(min(length, longest) for length in self.lengths) if self.spec.length else (1,)
 
 
 def validate(subject: Subject) -> Figures:
@@ -69,7 +70,7 @@ def validate(subject: Subject) -> Figures:
         rows = worst(_alone(subject, session, length) for length in subject.tried_lengths)
         _check(subject, "a row alone and in a batch", rows)
     if subject.spec.length:
-        _check(subject, "padding invariance", worst(_padding(subject, session, n) for n in subject.lengths))
+        _check(subject, "padding invariance", worst(_padding(subject, session, n) for n in subject.tried_lengths))
     if subject.trial:
         drift = subject.trial(lambda feeds: run(session, dict(feeds)), subject.reference)
         _check(subject, "drift from torch", drift)
@@ -180,9 +181,10 @@ def _alone(subject: Subject, session: ort.InferenceSession, length: int) -> Figu
 
 
 def _padding(subject: Subject, session: ort.InferenceSession, length: int) -> Figures:
-    """One row alone, and the same row with rubbish behind its end."""
+    """One row alone, and the same row with rubbish behind its end, as much as there is room for."""
+    extra = min(EXTRA, (subject.spec.longest or length + EXTRA) - length)
     feeds = subject.examples(1, length, seed=length)
-    padded = {tensor.name: _padded(tensor, feeds[tensor.name], subject.spec) for tensor in subject.spec.inputs}
+    padded = {tensor.name: _padded(tensor, feeds[tensor.name], subject.spec, extra) for tensor in subject.spec.inputs}
     alone, beside = run(session, feeds), run(session, padded)
     for tensor in subject.spec.outputs:
         if subject.spec.length in tensor.shape:
@@ -190,11 +192,11 @@ def _padding(subject: Subject, session: ort.InferenceSession, length: int) -> Fi
     return _figures(subject, beside, alone, feeds)
 
 
-def _padded(tensor: TensorSpec, value: Array, spec: GraphSpec) -> Array:
+def _padded(tensor: TensorSpec, value: Array, spec: GraphSpec, extra: int) -> Array:
     if spec.length not in tensor.shape:
         return value
     fill = 0 if tensor.name == spec.mask else 5
-    widths = [(0, EXTRA) if axis == spec.length else (0, 0) for axis in tensor.shape]
+    widths = [(0, extra) if axis == spec.length else (0, 0) for axis in tensor.shape]
     return np.pad(value, widths, constant_values=fill)
 
 

@@ -20,6 +20,8 @@ class Runtime(Search, Locomotion, Synthesis):
             such a file gives its preferred one (the pose prior has no ``int8``).
         providers: onnxruntime's execution providers of every session, the preferred one first, as in
             ``["CUDAExecutionProvider", "CPUExecutionProvider"]``; by default the CPU.
+        text_tower: what embeds the texts of a search: ``"small"``, fast, or ``"full"``, which it was distilled from; by
+            default the small one where the models have one. Galleries serve either.
 
     Raises:
         InvalidInputError: ``providers`` is no list of names, or of pairs of a name and options.

@@ -6,12 +6,13 @@ import pytest
 
 torch = pytest.importorskip("torch", reason="torch is not installed; the export extra brings it")
 
-from tiny_nets import tiny_minilm, tiny_tmr  # noqa: E402
+from tiny_nets import tiny_minilm, tiny_student, tiny_tmr  # noqa: E402
 
 from motionrt_export.graphs import (  # noqa: E402
     DecoderGraph,
     MotionEncoderGraph,
     SentenceEncoderGraph,
+    StudentGraph,
     TextGraph,
 )
 from motionrt_export.layers import Attention, folded  # noqa: E402
@@ -50,6 +51,19 @@ def test_the_text_encoder_is_the_one_that_was_trained(length: int) -> None:
     torch.testing.assert_close(sentence, mean_pooled(features, mask), atol=1e-6, rtol=0)
     torch.testing.assert_close(latent, expected, atol=1e-5, rtol=1e-5)
     torch.testing.assert_close(embedding.norm(dim=-1), torch.ones(3), atol=1e-6, rtol=0)
+
+
+@pytest.mark.parametrize("words", [32, 64, 96])  # fewer, as many and more directions than the layers are wide
+@pytest.mark.parametrize("length", [1, 5, 40])
+def test_the_small_text_tower_is_the_one_that_was_trained(words: int, length: int) -> None:
+    model, mask = tiny_student(words), masks(3, length)
+    ids = torch.randint(0, 2000, (3, length))
+    graph = StudentGraph(model)
+    embedding, latent = graph(ids, mask.long())
+    expected = model(ids, mask)
+    torch.testing.assert_close(latent, expected, atol=1e-5, rtol=1e-5)
+    torch.testing.assert_close(embedding, torch.nn.functional.normalize(expected, dim=-1), atol=1e-6, rtol=0)
+    assert graph.words.weight.shape == (2000, min(words, 64))
 
 
 @pytest.mark.parametrize("patch", [1, 4])

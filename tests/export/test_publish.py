@@ -83,7 +83,7 @@ def digests(root: Path) -> dict[str, str]:
 def test_a_second_run_writes_the_same_bytes(published: tuple[Path, TinySources], tmp_path: Path) -> None:
     publish_tiny(tmp_path)
     assert digests(tmp_path) == digests(published[0])
-    assert len(digests(tmp_path)) == 8 + 21 + 2 + 6  # shipped files, others; manifest, tokenizer; checkpoints
+    assert len(digests(tmp_path)) == 9 + 23 + 2 + 7  # shipped files, others; manifest, tokenizer; checkpoints
 
 
 def test_the_runtime_reads_the_manifest_and_finds_every_file(published: tuple[Path, TinySources]) -> None:
@@ -107,7 +107,7 @@ def test_the_runtime_gives_the_embeddings_of_torch(
     published: tuple[Path, TinySources], variant: str, least: float
 ) -> None:
     root, sources = published
-    model = TextMotionModel(root, variant=variant, threads=1)
+    model = TextMotionModel(root, variant=variant, threads=1, text_tower="full")
     network = sources.tmr.model
     ids = torch.from_numpy(model.sentences.tokens("a person walks in a circle"))[None]
     features = sources.backbone(ids, torch.ones_like(ids))
@@ -182,7 +182,7 @@ def test_a_published_file_that_is_exchanged_is_refused(published: tuple[Path, Ti
     with pytest.raises(
         ChecksumError, match=r"expected [0-9a-f]{64} .*, found [0-9a-f]{64} .*this is the int8 file of tmr_motion"
     ):
-        TextMotionModel(tmp_path).embed_text(["walk"])
+        TextMotionModel(tmp_path, text_tower="full").embed_text(["walk"])
 
 
 def test_the_command_without_a_checkpoint_says_what_is_missing(
@@ -311,3 +311,13 @@ def test_every_file_is_timed_beside_torch(published: tuple[Path, TinySources], t
     assert all(row["torch_p50_ms"] > 0 and row["threads"] == 1 for row in rows)
     Measured(benchmark=found).write(tmp_path / "figures.yaml")
     assert Measured.read(tmp_path / "figures.yaml").benchmark == found
+
+
+def test_the_runtime_embeds_with_the_tower_of_torch(published: tuple[Path, TinySources]) -> None:
+    root, sources = published
+    text = "somebody jumps to the left"
+    for tower, variant, least in (("small", "fp32", 0.99999), ("small", None, 0.995), (None, "fp32", 0.99999)):
+        model = TextMotionModel(root, variant=variant, threads=1, text_tower=tower)
+        ids = torch.from_numpy(model.sentences.tokens(text))[None]
+        expected = torch.nn.functional.normalize(sources.text_student.model(ids, torch.ones_like(ids)), dim=-1)
+        assert float(model.embed_text([text])[0] @ expected[0].numpy()) > least

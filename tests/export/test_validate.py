@@ -64,6 +64,12 @@ def test_an_honest_export_passes(sources, name: str, variant: str) -> None:
     assert set(figures) >= set(tolerance(name, variant))
 
 
+def test_texts_are_tried_up_to_the_longest(sources) -> None:
+    student = dataclasses.replace(subject(sources, "tmr_student"), lengths=(1, 120, 200), batches=(1,))
+    assert student.tried_lengths == (1, 120, 128)
+    assert validate(student)["embedding"]["max_abs_error"] <= 1e-4
+
+
 def test_a_corrupted_weight_fails_with_the_figure(text: Subject) -> None:
     def corrupt(model: onnx.ModelProto) -> None:
         tensor = next(t for t in model.graph.initializer if tuple(t.dims) == (384, 1152))

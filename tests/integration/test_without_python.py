@@ -46,7 +46,7 @@ def start() -> dict[str, Any]:
 )
 def test_a_text_is_embedded_and_searched_as_in_python(text: str) -> None:
     found = node("retrieve.mjs", text, "-k", "7")
-    runtime = motionrt.Runtime(threads=1)
+    runtime = motionrt.Runtime(threads=1, text_tower="full")
     assert found["tokens"] == load_tokenizer(Sessions()).encode(text).ids
     np.testing.assert_allclose(found["embedding"], runtime.embed_text(text), atol=1e-4)
     hits = runtime.retrieve(text, k=7)

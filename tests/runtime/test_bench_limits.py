@@ -133,7 +133,10 @@ def test_limits_are_told_of_what_was_timed_only() -> None:
 def test_a_benchmark_is_profiled_model_by_model() -> None:
     found = benchmark_work("text", str(TINY), 1, seconds=0.01)
     assert found.case == "text encoding"
-    assert {name for name, work in found.models.items() if work.runs == 1} >= {"tmr_text"}
+    assert {name: work.runs for name, work in found.models.items()} == {"tmr_student": 1}
+    full = benchmark_work("full-text", str(TINY), 1, seconds=0.01)
+    assert full.case == "text encoding, full tower"
+    assert {name for name, work in full.models.items() if work.runs} == {"tmr_text"}
     assert found.all.weight_bytes > 0
     assert "Mul" in found.all.seconds
     assert 0 < found.all.run_seconds < found.wall_s

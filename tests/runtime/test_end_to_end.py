@@ -16,6 +16,7 @@ from motions import random_motion, standing, walking
 from motionrt import Runtime, load_motion
 from motionrt.bench.finds import motion_case
 from motionrt.formats import save_motion
+from motionrt.retrieval.head import sealed
 
 MODELS = Path(__file__).parents[1] / "fixtures" / "models"
 
@@ -100,7 +101,7 @@ def test_another_models_gallery_is_refused(library: Path, built: dict[str, Any])
     original = head_path.read_bytes()
     head = json.loads(original)
     head["model"]["fingerprint"] = "0" * 64
-    head_path.write_text(json.dumps(head), encoding="utf-8")
+    head_path.write_bytes(sealed({name: value for name, value in head.items() if name != "checksum"}))
     try:
         message = motionrt("retrieve", "dance", "--gallery", library, "--models", MODELS, code=1)
     finally:
@@ -111,7 +112,7 @@ def test_another_models_gallery_is_refused(library: Path, built: dict[str, Any])
 
 def test_models_are_listed_and_verified() -> None:
     assert [model["name"] for model in motionrt("models", "list", "--models", MODELS)] == [
-        "tmr_text", "tmr_motion", "tmr_decoder",
+        "tmr_text", "tmr_student", "tmr_motion", "tmr_decoder",
     ]  # fmt: skip
     reports = motionrt("models", "verify", "--models", MODELS)
     assert {report["state"] for report in reports} == {"ok", "not built"}

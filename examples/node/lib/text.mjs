@@ -1,4 +1,5 @@
-// Text -> unit vector: WordPiece ids into tmr_text, whose graph holds the sentence encoder and TMR's head.
+// Text -> unit vector: WordPiece ids into tmr_text, whose graph holds the sentence encoder and TMR's head, or into the small
+// text tower tmr_student, which needs no switch.
 import { readFile } from "node:fs/promises";
 import { Tokenizer } from "@huggingface/tokenizers";
 import { InferenceSession, Tensor } from "onnxruntime-node";
@@ -25,9 +26,9 @@ export class TextEncoder {
     const shape = [1, ids.length];
     const feeds = {
       input_ids: new Tensor("int64", ids, shape),
-      embed: new Tensor("bool", [true], []),
       attention_mask: new Tensor("int64", BigInt64Array.from(ids, () => 1n), shape),
     };
+    if (this.session.inputNames.includes("embed")) feeds.embed = new Tensor("bool", [true], []); // a switch of tmr_text
     const { embedding } = await this.session.run(feeds, ["embedding"]);
     return embedding.data;
   }

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from motionrt.bench import finds, makes, moves
 from motionrt.bench.files import CLIPS, GALLERY, file_calls, gallery_call
 from motionrt.bench.graphs import graph_call, graph_case
-from motionrt.bench.setting import Setting
+from motionrt.bench.setting import TEXT_TOWER, Setting
 from motionrt.bench.timing import Case
 from motionrt.errors import InvalidInputError
 from motionrt.locomotion.actions import Act, WalkTo
@@ -19,6 +19,7 @@ from motionrt.models.pose_prior import MODEL as POSE_PRIOR
 from motionrt.models.temos import DECODER
 from motionrt.models.temos import TEXT as TEMOS_TEXT
 from motionrt.models.tmr import MOTION as TMR_MOTION
+from motionrt.models.tmr import STUDENT as TMR_STUDENT
 from motionrt.models.tmr import TEXT as TMR_TEXT
 from motionrt.models.transnet import TRANSNET
 from motionrt.models.walknet import WALKNET, WalkModel
@@ -42,7 +43,11 @@ class Benchmark:
 
 
 def _text(setting: Setting) -> Mapping[str, Case]:
-    return {finds.TEXT: Case(finds.text_call(setting.runtime, setting.work))}
+    return {finds.TEXT: Case(finds.text_call(setting.runtime.model, setting.work))}
+
+
+def _full_text(setting: Setting) -> Mapping[str, Case]:
+    return {finds.FULL_TEXT: Case(finds.text_call(setting.full_text, setting.work))}
 
 
 def _motion(setting: Setting) -> Mapping[str, Case]:
@@ -128,10 +133,11 @@ def _models(setting: Setting) -> Mapping[str, Case]:
 
 
 BENCHMARKS: Mapping[str, Benchmark] = {
-    "text": Benchmark((TMR_TEXT,), _text),
+    "text": Benchmark((TEXT_TOWER,), _text),
+    "full-text": Benchmark((TMR_STUDENT, TMR_TEXT), _full_text),  # the same as text where there is no other tower
     "motion": Benchmark((TMR_MOTION,), _motion),
     "search": Benchmark((), _search),
-    "retrieve": Benchmark((TMR_TEXT, TMR_MOTION), _retrieve),
+    "retrieve": Benchmark((TEXT_TOWER, TMR_MOTION), _retrieve),
     "approximate": Benchmark((), _approximate, on_request=True),
     "gallery": Benchmark((TMR_MOTION,), _gallery),
     "generate": Benchmark((TMR_TEXT, TEMOS_TEXT, DECODER, DENOISER), _generate),
@@ -144,7 +150,7 @@ BENCHMARKS: Mapping[str, Benchmark] = {
     "perform": Benchmark((WALKNET, TRANSNET, POSE_PRIOR), _perform),
     "files": Benchmark((), _files),
     "models": Benchmark((), _models),
-    COLD: Benchmark((TMR_TEXT, TMR_MOTION), lambda _: {}),
+    COLD: Benchmark((TEXT_TOWER, TMR_MOTION), lambda _: {}),
 }
 """All benchmarks, in the order in which they are shown."""
 

@@ -6,12 +6,14 @@ from itertools import cycle
 
 from motionrt.bench.timing import Call
 from motionrt.bench.workload import TOP, Workload
+from motionrt.models import TextMotionModel
 from motionrt.motion.skeleton import FloatArray
 from motionrt.retrieval import ExactIndex
 from motionrt.retrieval.approximate import ApproximateIndex
 from motionrt.runtime import Runtime
 
 TEXT = "text encoding"
+FULL_TEXT = "text encoding, full tower"
 CLIPS = (1, 8, 64)  # that are embedded together
 
 
@@ -35,9 +37,9 @@ def answer_case(size: int) -> str:
     return f"text to top {TOP} of {size:,}"
 
 
-def text_call(runtime: Runtime, work: Workload) -> Call:
+def text_call(model: TextMotionModel, work: Workload) -> Call:
     """One text embedded."""
-    texts, model = cycle(work.texts), runtime.model
+    texts = cycle(work.texts)
     return lambda: model.embed_text([next(texts)])
 
 

@@ -8,7 +8,7 @@ from typing import Any
 
 from motionrt.bench import tables
 from motionrt.bench.files import GALLERY, LOAD
-from motionrt.bench.finds import TEXT, answer_case, motion_case, search_case
+from motionrt.bench.finds import FULL_TEXT, TEXT, answer_case, motion_case, search_case
 from motionrt.bench.makes import BODY_PARTS, COMPOSE, DECODE, generate_case
 from motionrt.bench.moves import POSE, TRANSITION, walk_case
 from motionrt.bench.report import rivals_of
@@ -19,6 +19,7 @@ Found = Mapping[str, Any]
 README = {
     answer_case(10_000): "text to the top 10 of 10,000 clips",
     TEXT: "embed a text",
+    FULL_TEXT: "embed a text, full tower",
     motion_case(1): "embed a motion of 10 s",
     search_case(100_000): "search 100,000 vectors, exact",
     search_case(1_000_000): "search 1,000,000 vectors, exact",

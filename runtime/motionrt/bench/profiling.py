@@ -64,7 +64,8 @@ def benchmark_work(
         setting = Setting(models, threads, Workload.standard(SIZES), variant=variant, session_options=options)
         with closing(setting):
             _check(setting, benchmark)
-            sessions = {name: setting.sessions(name).session(name, variant) for name in needed}  # one after the other
+            names = setting.named(needed)
+            sessions = {name: setting.sessions(name).session(name, variant) for name in names}  # one after the other
             label, case = _first(setting, benchmark)
             calls, wall = _repeat(case.call, seconds)
             profiles = {name: Path(session.end_profiling()) for name, session in sessions.items()}

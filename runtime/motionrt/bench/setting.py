@@ -10,8 +10,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from motionrt.bench.workload import Workload
-from motionrt.models import Sessions, find_manifest, load_manifest
+from motionrt.models import Sessions, TextMotionModel, find_manifest, load_manifest
 from motionrt.models.manifest import Manifest
+from motionrt.models.tmr import chosen_tower
 from motionrt.runtime import Runtime
 
 if TYPE_CHECKING:
@@ -53,6 +54,11 @@ class Setting:
         """Of the models."""
         return load_manifest(find_manifest(self.models))
 
+    @cached_property
+    def full_text(self) -> TextMotionModel:
+        """The encoders with the full text tower, in the same sessions."""
+        return TextMotionModel(self.runtime.model.sessions, variant=self.variant, text_tower="full")
+
     @property
     def character_models(self) -> OnnxCharacterModels:
         """The models of walking and acting."""
@@ -70,9 +76,15 @@ class Setting:
         ours = self.runtime.model.sessions
         return self.character_models.sessions if model in MOVING else ours
 
+    def named(self, needed: Sequence[str]) -> list[str]:
+        """The models by their names, with that of the text tower that is taken by default."""
+        return [chosen_tower(self.manifest, None) if name == TEXT_TOWER else name for name in needed]
+
     def missing(self, needed: Sequence[str]) -> list[str]:
         """Those of the models that the manifest does not hold."""
-        return [name for name in needed if name not in self.manifest.models]
+        return [name for name in self.named(needed) if name not in self.manifest.models]
 
 
+TEXT_TOWER = "text tower"
+"""Stands for the model that embeds texts."""
 MOVING = ("walknet", "transnet", "pose_prior")

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from motionrt.cli.console import print_json, print_table
-from motionrt.cli.options import add_json, add_mapping, add_models, command, read_mapping, runtime
+from motionrt.cli.options import add_json, add_mapping, add_models, add_text_tower, command, read_mapping, runtime
 
 HELP = """say what a motion shows: the nearest captions of a list"""
 
@@ -21,6 +21,7 @@ def add(commands: Any) -> None:
     add_mapping(parser)
     add_json(parser)
     add_models(parser)
+    add_text_tower(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:

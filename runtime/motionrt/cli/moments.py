@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from motionrt.cli.console import print_json, print_table
-from motionrt.cli.options import add_json, add_mapping, add_models, command, read_mapping, runtime
+from motionrt.cli.options import add_json, add_mapping, add_models, add_text_tower, command, read_mapping, runtime
 from motionrt.cli.plot import curve_lines
 
 HELP = """find the moments of a long motion that fit a text
@@ -32,6 +32,7 @@ def add(commands: Any) -> None:
     add_mapping(parser)
     add_json(parser)
     add_models(parser)
+    add_text_tower(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -32,9 +32,18 @@ def add_json(parser: argparse.ArgumentParser) -> None:
 def add_models(parser: argparse.ArgumentParser, *, threads: bool = True) -> None:
     """``--models`` and, where the user may choose, ``--threads``."""
     parser.add_argument("--models", type=Path, metavar="PATH", help="models manifest or folder (default: shipped)")
-    parser.set_defaults(threads=None)
+    parser.set_defaults(threads=None, text_tower=None)
     if threads:
         parser.add_argument("--threads", type=int, metavar="N", help="threads of the models (default: at most 2)")
+
+
+def add_text_tower(parser: argparse.ArgumentParser) -> None:
+    """``--text-tower``."""
+    parser.add_argument(
+        "--text-tower",
+        choices=("small", "full"),
+        help="what embeds the text: small is fast, full is what it was distilled from (default: small if there is one)",
+    )
 
 
 def add_mapping(parser: argparse.ArgumentParser) -> None:
@@ -51,7 +60,7 @@ def runtime(arguments: argparse.Namespace) -> Runtime:
     """The runtime that the arguments ask for."""
     from motionrt.runtime import Runtime
 
-    return Runtime(arguments.models, threads=arguments.threads)
+    return Runtime(arguments.models, threads=arguments.threads, text_tower=arguments.text_tower)
 
 
 def read_mapping(path: Path | None) -> dict[str, str] | None:

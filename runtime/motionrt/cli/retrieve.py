@@ -8,7 +8,7 @@ from typing import Any
 
 from motionrt.cli.console import say
 from motionrt.cli.hits import add_filters, add_output, read_filter, show
-from motionrt.cli.options import add_json, add_models, command, runtime
+from motionrt.cli.options import add_json, add_models, add_text_tower, command, runtime
 
 HELP = """find the motions of a gallery that fit a text
 Without --gallery the small starter gallery is searched that comes with motionrt."""
@@ -30,6 +30,7 @@ def add(commands: Any) -> None:
     add_output(parser)
     add_json(parser)
     add_models(parser)
+    add_text_tower(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:

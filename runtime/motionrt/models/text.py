@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
 
-from motionrt.errors import InvalidInputError, ManifestError
+from motionrt.errors import InvalidInputError
 from motionrt.limits import how_to_raise, limits
-from motionrt.models.checks import verified
 from motionrt.models.sessions import Sessions
+from motionrt.models.tokens import Tokens
 from motionrt.untrusted.words import shown
 
 if TYPE_CHECKING:
@@ -50,8 +50,10 @@ class SentenceEncoder:
 
     def __init__(self, sessions: Sessions, variant: str | None = None) -> None:
         self._sessions, self._variant = sessions, variant
-        self._tokenizer: Tokenizer | None = None
-        self._lock = threading.Lock()
+
+    @cached_property
+    def _tokens(self) -> Tokens:
+        return Tokens(self._sessions, MODEL)
 
     def tokens(self, text: str) -> IntArray:
         """Token ids ``(T,)`` with the markers of beginning and end, cut at the model's limit.
@@ -59,7 +61,7 @@ class SentenceEncoder:
         Raises:
             InvalidInputError: not a string, or nothing but white space.
         """
-        return np.array(self._open_tokenizer().encode(checked_text(text)).ids, dtype=np.int64)
+        return np.array(self._tokens.ids(checked_text(text)), dtype=np.int64)
 
     def feeds(self, text: str) -> dict[str, IntArray]:
         """What the model is given for one text; raises as `tokens` does."""
@@ -79,24 +81,10 @@ class SentenceEncoder:
         rows = [self.encode(text).sentence_embedding for text in checked]
         return np.stack(rows) if rows else np.zeros((0, 384), np.float32)
 
-    def _open_tokenizer(self) -> Tokenizer:
-        with self._lock:
-            if self._tokenizer is None:
-                self._tokenizer = load_tokenizer(self._sessions)
-            return self._tokenizer
-
 
 def load_tokenizer(sessions: Sessions, model: str = MODEL) -> Tokenizer:
     """The tokenizer of a text model, checked, without padding, cutting at the model's limit."""
-    from tokenizers import Tokenizer
-
-    info = sessions.model(model).tokenizer
-    if info is None:
-        raise ManifestError(f"{sessions.manifest.path}: model '{model}' names no tokenizer; export the models again")
-    tokenizer = Tokenizer.from_str(verified(sessions.manifest, info).decode("utf-8"))
-    tokenizer.no_padding()
-    tokenizer.enable_truncation(info.max_tokens)
-    return tokenizer
+    return Tokens(sessions, model).whole
 
 
 def checked_texts(texts: Sequence[str]) -> list[str]:

@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from motionrt.errors import InvalidInputError
+from motionrt.errors import InvalidInputError, ManifestError, ModelNotFoundError
 from motionrt.models.engine import Providers
+from motionrt.models.manifest import Manifest
 from motionrt.models.sessions import Arrays, Sessions
 from motionrt.models.text import MODEL, SentenceEncoder, checked_texts
 
@@ -21,7 +22,9 @@ if TYPE_CHECKING:
 
 FloatArray = npt.NDArray[np.float32]
 
-TEXT, MOTION, DECODER = MODEL, "tmr_motion", "tmr_decoder"
+TEXT, STUDENT, MOTION, DECODER = MODEL, "tmr_student", "tmr_motion", "tmr_decoder"
+TEXT_TOWERS = {"small": STUDENT, "full": TEXT}
+"""The models that embed texts: the small one was distilled from the full one, and costs a fraction of it."""
 DIMENSION = 256
 FEATURES = 263
 
@@ -30,7 +33,7 @@ class TextMotionModel:
     """Embeds texts and motions into one space of unit vectors, and decodes its latents.
 
     Every model opens when it is first needed. Texts and motions go in one by one, so that an embedding never
-    depends on what else was asked for.
+    depends on what else was asked for. Both text towers embed into the same space, so galleries serve either.
 
     Args:
         models: the manifest or its folder, or open `Sessions`; None takes the models that came with motionrt.
@@ -39,9 +42,12 @@ class TextMotionModel:
         session_options: options for every onnxruntime session, instead of ``threads``.
         providers: onnxruntime's execution providers, the preferred one first; by default the CPU.
         sentences: the sentence encoder, where there is one already.
+        text_tower: what embeds texts: ``"small"``, ``"full"``, or None for the small one where the manifest has one.
 
     Raises:
         ModelFileError, ManifestError: no manifest, or a bad one.
+        InvalidInputError: there is no such text tower.
+        ModelNotFoundError: the manifest has no small one.
     """
 
     name = "tmr"
@@ -55,6 +61,7 @@ class TextMotionModel:
         session_options: SessionOptions | None = None,
         providers: Providers | None = None,
         sentences: SentenceEncoder | None = None,
+        text_tower: str | None = None,
     ) -> None:
         self.sessions = (
             models
@@ -62,12 +69,16 @@ class TextMotionModel:
             else Sessions(models, threads=threads, session_options=session_options, providers=providers)
         )
         self.variant = variant
+        self.text_model = chosen_tower(self.sessions.manifest, text_tower)
         self.sentences = sentences or SentenceEncoder(self.sessions, variant)
         self._prepared = False
 
     @cached_property
     def fingerprint(self) -> str:
-        """sha256 over the checksums of the encoders: embeddings of equal fingerprints may be compared."""
+        """sha256 over the checksums of the encoders: embeddings of equal fingerprints may be compared.
+
+        The small text tower has no part in it, as it embeds into the space of the full one.
+        """
         manifest = self.sessions.manifest
         chosen = {name: manifest.variant(name, self.variant) for name in (TEXT, MOTION)}
         lines = [f"{name} {variant.sha256}\n" for name, variant in chosen.items()]
@@ -79,11 +90,14 @@ class TextMotionModel:
         Raises:
             InvalidInputError: one string instead of a list, or a text that is no string or empty.
         """
-        return _stacked([self._text(text, "embedding") for text in checked_texts(texts)])
+        checked = checked_texts(texts)
+        if checked:
+            self.prepare()  # the model opens while the tokenizer is read
+        return _stacked([self._text(self.text_model, text, "embedding") for text in checked])
 
     def text_latents(self, texts: Sequence[str]) -> FloatArray:
-        """Latents ``(N, 256)`` float32, for `decode`; raises as `embed_text` does."""
-        return _stacked([self._text(text, "latent") for text in checked_texts(texts)])
+        """Latents ``(N, 256)`` float32 of the full text tower, for `decode`; raises as `embed_text` does."""
+        return _stacked([self._text(TEXT, text, "latent") for text in checked_texts(texts)])
 
     def embed_motion(self, features: Sequence[FloatArray]) -> FloatArray:
         """Unit embeddings ``(N, 256)`` float32.
@@ -118,11 +132,10 @@ class TextMotionModel:
         """Start to open what texts need, beside whatever else is done meanwhile; what goes wrong is raised later."""
         if not self._prepared:
             self._prepared = True
-            self.sessions.prepare(TEXT, variant=self.variant)
+            self.sessions.prepare(self.text_model, variant=self.variant)
 
-    def _text(self, text: str, output: str) -> FloatArray:
-        self.prepare()  # the model opens while the tokenizer is read
-        return self.sessions.run(TEXT, [output], self.sentences.feeds(text), self.variant)[0]
+    def _text(self, model: str, text: str, output: str) -> FloatArray:
+        return self.sessions.run(model, [output], self.sentences.feeds(text), self.variant)[0]
 
     def _motion(self, features: FloatArray, output: str) -> FloatArray:
         mask = np.ones((1, len(features)), dtype=bool)
@@ -132,6 +145,20 @@ class TextMotionModel:
     def _decoded(self, latent: FloatArray, mask: npt.NDArray[np.bool_]) -> FloatArray:
         feeds: Arrays = {"latent": latent, "mask": mask}
         return self.sessions.run(DECODER, ["motion"], feeds, self.variant)[0]
+
+
+def chosen_tower(manifest: Manifest, text_tower: str | None) -> str:
+    """The name of the model that embeds texts; see `TextMotionModel`."""
+    if text_tower is None:
+        text_tower = "small" if STUDENT in manifest.models else "full"
+    if text_tower not in TEXT_TOWERS:
+        raise InvalidInputError(f"there is no text tower {text_tower!r}; choose {' or '.join(TEXT_TOWERS)}")
+    model = TEXT_TOWERS[text_tower]
+    if text_tower == "small" and model not in manifest.models:
+        raise ModelNotFoundError(f"{manifest.path} has no small text tower ({model}); choose full, or leave it out")
+    if text_tower == "small" and manifest.model(STUDENT).tokenizer != manifest.model(TEXT).tokenizer:
+        raise ManifestError(f"{manifest.path}: {STUDENT} and {TEXT} name different tokenizers; export the models again")
+    return model
 
 
 def _stacked(rows: list[FloatArray]) -> FloatArray:

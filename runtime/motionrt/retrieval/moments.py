@@ -12,7 +12,7 @@ from motionrt.errors import InvalidInputError
 from motionrt.metrics import temporal_iou
 from motionrt.motion.skeleton import FloatArray
 from motionrt.retrieval.search import checked_k
-from motionrt.retrieval.windows import FPS, MotionEmbedder
+from motionrt.retrieval.windows import FPS, MotionEmbedder, span_features
 
 WINDOW_LENGTHS = (10, 20, 30, 40, 50, 60)
 STRIDE = 5
@@ -74,7 +74,7 @@ def find_moments(
     """
     k = checked_k(k)
     spans = pyramid(len(features), lengths, stride)
-    scores = embedder.embed_motion([features[start:end] for start, end in spans]) @ text_embedding
+    scores = embedder.embed_motion(span_features(features, spans.tolist())) @ text_embedding
     kept = non_maximum_suppression(spans, scores, max_overlap)[:k]
     best = [
         Moment(rank, float(scores[i]), float(spans[i, 0] / FPS), float(spans[i, 1] / FPS))

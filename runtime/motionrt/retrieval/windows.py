@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Protocol
 
 import numpy as np
@@ -33,11 +33,14 @@ class MotionEmbedder(Protocol):
 
 
 def motion_features(motion: Motion) -> FloatArray:
-    """``guo263`` features ``(F, 263)`` of a motion at any frame rate, stood on its floor, at 20 fps.
+    """``guo263`` features ``(F, 263)`` at 20 fps of a motion at any frame rate; of parts by :func:`span_features`."""
+    return guo263.encode(motion.resample(FPS))
 
-    Every feature describes one frame and its step to the next: a slice of these describes a part.
-    """
-    return guo263.encode(motion.grounded().resample(FPS))
+
+def span_features(features: FloatArray, spans: Iterable[tuple[int, int]]) -> list[FloatArray]:
+    """Features of each span of frames, as if it were a clip of its own; the whole clip's are given as they are."""
+    whole = 0, len(features)
+    return [features if (start, end) == whole else guo263.part(features, start, end) for start, end in spans]
 
 
 def window_spans(frames: int, size: int = WINDOW_FRAMES, hop: int = HOP_FRAMES) -> list[tuple[int, int]]:
@@ -70,7 +73,7 @@ def measured(motion: Motion, spans: Sequence[tuple[float, float]]) -> FloatArray
 def embed_windows(embedder: MotionEmbedder, features: FloatArray) -> tuple[FloatArray, list[tuple[int, int]]]:
     """Embeddings ``(W, 256)`` and frame spans of the windows of one clip's features ``(F, 263)``."""
     spans = window_spans(len(features))
-    return embedder.embed_motion([features[start:end] for start, end in spans]), spans
+    return embedder.embed_motion(span_features(features, spans)), spans
 
 
 def embed_whole(embedder: MotionEmbedder, features: FloatArray) -> FloatArray:

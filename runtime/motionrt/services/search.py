@@ -27,7 +27,7 @@ if TYPE_CHECKING:  # embedding a text, the shortest way to an answer, waits for 
 _ASSETS = Path(__file__).parents[1] / "_assets"
 STARTER_GALLERY = _ASSETS / "starter"
 DEFAULT_CAPTIONS = _ASSETS / "captions.txt"
-EMBEDDED_CAPTIONS = _ASSETS / "captions.npz"  # the same, embedded by the shipped models
+EMBEDDED_CAPTIONS = _ASSETS / "captions.npz"  # the same, embedded by the shipped models, the full text tower
 
 
 class Search(Service):
@@ -46,7 +46,9 @@ class Search(Service):
     @cached_property
     def model(self) -> TextMotionModel:
         """The text and motion encoders."""
-        return TextMotionModel(self.sessions, variant=self._variant, sentences=self.sentences)
+        return TextMotionModel(
+            self.sessions, variant=self._variant, sentences=self.sentences, text_tower=self._text_tower
+        )
 
     @overload  # a str is a sequence of str, too, so the two overlap
     def retrieve(  # type: ignore[overload-overlap]

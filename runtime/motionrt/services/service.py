@@ -26,6 +26,8 @@ class Service:
             such a file gives its preferred one (the pose prior has no ``int8``).
         providers: onnxruntime's execution providers of every session, the preferred one first, as in
             ``["CUDAExecutionProvider", "CPUExecutionProvider"]``; by default the CPU.
+        text_tower: what embeds the texts of a search: ``"small"``, fast, or ``"full"``, which it was distilled from; by
+            default the small one where the models have one. Galleries serve either.
 
     Raises:
         InvalidInputError: ``providers`` is no list of names, or of pairs of a name and options.
@@ -39,12 +41,14 @@ class Service:
         session_options: SessionOptions | None = None,
         variant: str | None = None,
         providers: Providers | None = None,
+        text_tower: str | None = None,
     ) -> None:
         self._models = models
         self._threads = threads
         self._session_options = session_options
         self._variant = variant
         self._providers = checked_providers(providers)
+        self._text_tower = text_tower
 
     @cached_property
     def sessions(self) -> Sessions:

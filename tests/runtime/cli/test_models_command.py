@@ -80,7 +80,7 @@ def test_show_gives_programs_the_fields_of_the_manifest(tmp_path: Path, capsys: 
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["walknet"], "has no model 'walknet'; it has: tmr_decoder, tmr_motion, tmr_text"),
+        (["walknet"], "has no model 'walknet'; it has: tmr_decoder, tmr_motion, tmr_student, tmr_text"),
         (["tmr_text", "--variant", "int9"], "model 'tmr_text' has no variant 'int9'; choose one of: fp32, tiny"),
     ],
 )
@@ -100,7 +100,7 @@ def test_verify_names_file_checksums_and_sizes(tmp_path: Path, capsys: pytest.Ca
     assert f"{folder / TEXT}: sha256 expected {expected} ({len(whole)} bytes), found {found} (100 bytes)" in error
     assert "the file is cut short; install motionrt again" in error
     assert f"cannot read {folder / 'models' / 'tmr_motion.tiny.onnx'}" in error
-    assert "2 of 7 files" in error
+    assert "2 of 10 files" in error
 
 
 def test_verify_gives_programs_both_sizes(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -7,6 +7,8 @@ import pytest
 
 from motionrt.errors import ModelFileError
 from motionrt.models import Manifest, SentenceEncoder, Sessions, TextMotionModel, find_manifest, load_manifest, verify
+from motionrt.retrieval import read_captions
+from motionrt.services.search import DEFAULT_CAPTIONS
 
 
 @pytest.fixture(scope="module")
@@ -61,6 +63,19 @@ def test_sentences_of_one_meaning_are_nearer_than_others(manifest: Manifest) -> 
         ["a person walks forward", "somebody is walking straight ahead", "a man throws a ball overhand"]
     )
     assert walk @ walking > 0.7 > walk @ throw
+
+
+def test_the_small_text_tower_says_what_the_full_one_does(manifest: Manifest) -> None:
+    """It was distilled from this one, and not from another: alike, and nearest to itself among sixty captions."""
+    if "tmr_student" not in manifest.models:
+        pytest.skip("the models have no small text tower yet")
+    texts = read_captions(DEFAULT_CAPTIONS)[::12]
+    small, full = (
+        TextMotionModel(manifest.path, threads=1, text_tower=tower).embed_text(texts) for tower in ("small", "full")
+    )
+    assert (small * full).sum(axis=1).mean() > 0.85
+    ranks = [(row > row[index]).sum() for index, row in enumerate(small @ full.T)]
+    assert np.mean([rank < 3 for rank in ranks]) > 0.8
 
 
 def test_a_text_and_a_decoded_motion_go_round(manifest: Manifest) -> None:

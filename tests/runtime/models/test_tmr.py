@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from tiny_models import TINY, edited
 
-from motionrt.errors import InvalidInputError, ModelNotFoundError
+from motionrt.errors import InvalidInputError, ManifestError, ModelNotFoundError
 from motionrt.models import Sessions, TextMotionModel
 from motionrt.motion.features import guo263
 
@@ -48,11 +48,81 @@ def test_an_embedding_does_not_depend_on_its_neighbours(model: TextMotionModel) 
         np.testing.assert_array_equal(model.embed_motion([clip])[0], row)
 
 
-def test_an_embedding_is_its_latent_at_length_one(model: TextMotionModel) -> None:
+def test_an_embedding_is_its_latent_at_length_one() -> None:
+    model = TextMotionModel(TINY, text_tower="full")
     latent = model.text_latents(["jump up"])
     np.testing.assert_allclose(
         model.embed_text(["jump up"]), latent / np.linalg.norm(latent, axis=1, keepdims=True), atol=1e-6
     )
+
+
+def small_tower(ids: np.ndarray) -> np.ndarray:
+    """The tiny tower is a mean of sines of the ids, so NumPy can do it, too."""
+    latent = np.sin(ids[:, None] * np.linspace(0.3, 2.5, 256)).mean(axis=0)
+    return np.asarray(latent / np.linalg.norm(latent))
+
+
+def test_texts_are_embedded_by_the_small_tower_unless_told_otherwise(model: TextMotionModel) -> None:
+    text = "a man kicks"
+    expected = small_tower(model.sentences.tokens(text))
+    np.testing.assert_allclose(model.embed_text([text])[0], expected, atol=2e-5)
+    small, full = (TextMotionModel(TINY, text_tower=tower).embed_text([text])[0] for tower in ("small", "full"))
+    np.testing.assert_array_equal(small, model.embed_text([text])[0])
+    assert abs(full @ small) < 0.9
+
+
+@pytest.mark.parametrize(("tower", "opened"), [(None, "tmr_student"), ("small", "tmr_student"), ("full", "tmr_text")])
+def test_only_the_chosen_tower_is_opened(monkeypatch: pytest.MonkeyPatch, tower: str | None, opened: str) -> None:
+    asked: set[str] = set()
+    open_session = Sessions.session
+    monkeypatch.setattr(Sessions, "session", lambda self, name, *a: (asked.add(name), open_session(self, name, *a))[1])
+    TextMotionModel(TINY, text_tower=tower).embed_text(["walk", "run"])
+    assert asked == {opened}
+
+
+def test_what_is_not_embedded_opens_the_full_tower_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: set[str] = set()
+    open_session = Sessions.session
+    monkeypatch.setattr(Sessions, "session", lambda self, name, *a: (asked.add(name), open_session(self, name, *a))[1])
+    model = TextMotionModel(TINY)
+    model.text_latents(["walk"])
+    model.sentences.encode("walk")
+    assert asked == {"tmr_text"}
+
+
+def test_models_without_a_small_tower_embed_with_the_full_one(tmp_path: Path) -> None:
+    bare = edited(tmp_path, lambda c: c["models"].pop("tmr_student"))
+    full = TextMotionModel(TINY, text_tower="full")
+    np.testing.assert_array_equal(TextMotionModel(bare).embed_text(["walk"]), full.embed_text(["walk"]))
+    with pytest.raises(ModelNotFoundError, match=r"has no small text tower \(tmr_student\); choose full"):
+        TextMotionModel(bare, text_tower="small")
+
+
+@pytest.mark.parametrize("tower", ["large", "", "tmr_text"])
+def test_an_unknown_text_tower_is_refused(tower: str) -> None:
+    with pytest.raises(InvalidInputError, match=f"there is no text tower '{tower}'; choose small or full"):
+        TextMotionModel(TINY, text_tower=tower)
+
+
+def test_towers_that_read_other_tokens_are_refused(tmp_path: Path) -> None:
+    other = edited(tmp_path, _retold)
+    with pytest.raises(ManifestError, match="tmr_student and tmr_text name different tokenizers"):
+        TextMotionModel(other)
+    TextMotionModel(other, text_tower="full")
+
+
+def _retold(content: dict[str, Any]) -> None:
+    whole = content["models"]["tmr_text"]["tokenizer"]
+    content["models"]["tmr_student"]["tokenizer"] = {**whole, "max_tokens": 64}
+
+
+def test_padding_changes_nothing_in_the_small_tower(model: TextMotionModel) -> None:
+    ids = model.sentences.tokens("she walks to the left")[None]
+    padded = np.pad(ids, ((0, 0), (0, 9)), constant_values=5)
+    mask = np.pad(np.ones_like(ids), ((0, 0), (0, 9)))
+    feeds = {"input_ids": padded, "attention_mask": mask}
+    found = model.sessions.run("tmr_student", ["embedding"], feeds)[0]
+    np.testing.assert_allclose(found, model.embed_text(["she walks to the left"]), atol=1e-6)
 
 
 def test_decoding_gives_motions_that_can_be_played(model: TextMotionModel) -> None:
@@ -110,6 +180,13 @@ def test_sessions_can_be_shared(model: TextMotionModel) -> None:
 def test_equal_models_have_equal_fingerprints(model: TextMotionModel) -> None:
     assert len(model.fingerprint) == 64
     assert model.fingerprint == TextMotionModel(TINY).fingerprint
+
+
+def test_galleries_serve_both_text_towers(model: TextMotionModel, tmp_path: Path) -> None:
+    """What embeds texts is no part of the fingerprint: a gallery holds embeddings of motions."""
+    assert {TextMotionModel(TINY, text_tower=tower).fingerprint for tower in ("small", "full")} == {model.fingerprint}
+    other = edited(tmp_path, lambda c: c["models"]["tmr_student"]["variants"]["tiny"].update(sha256="a" * 64))
+    assert TextMotionModel(other).fingerprint == model.fingerprint
 
 
 @pytest.mark.parametrize("name", ["tmr_text", "tmr_motion"])

@@ -12,6 +12,7 @@ from motions import random_motion, standing, walking
 
 from motionrt.errors import GalleryError, GalleryNotFoundError, InvalidInputError
 from motionrt.motion import Motion
+from motionrt.motion.features import guo263
 from motionrt.retrieval import Gallery, motion_features, store
 
 MOTIONS = {
@@ -57,7 +58,7 @@ def test_a_motion_finds_itself_first(gallery: Gallery, model: FakeEmbedder) -> N
 
 
 def test_a_long_clip_is_found_by_its_window(gallery: Gallery, model: FakeEmbedder) -> None:
-    window = motion_features(MOTIONS["long"])[200:400]
+    window = guo263.part(motion_features(MOTIONS["long"]), 200, 400)
     hit = gallery.search(model.embed_motion([window])[0], k=1)[0]
     assert (hit.id, hit.start_s, hit.end_s) == ("long", 10.0, 20.0)
 

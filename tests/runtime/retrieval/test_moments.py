@@ -9,6 +9,7 @@ from motions import random_motion, standing
 
 from motionrt.errors import InvalidInputError
 from motionrt.motion import Motion
+from motionrt.motion.features import guo263
 from motionrt.retrieval import find_moments, motion_features
 from motionrt.retrieval.moments import non_maximum_suppression, pyramid, similarity_curve
 
@@ -45,7 +46,7 @@ def test_a_moment_planted_in_a_long_motion_is_found() -> None:
     rotations = np.concatenate([still.rotations, busy.rotations, still.rotations])
     root = np.concatenate([still.root, busy.root, np.tile(busy.root[-1], (80, 1))])
     features, model = motion_features(Motion(rotations, root, 20.0)), FakeEmbedder()
-    query = model.embed_motion([features[85:115]])[0]
+    query = model.embed_motion([guo263.part(features, 85, 115)])[0]
     found = find_moments(query, features, model, k=3)
     assert (found.best[0].start_s, found.best[0].end_s) == (4.25, 5.75)
     assert found.best[0].score == pytest.approx(1.0, abs=1e-5)
