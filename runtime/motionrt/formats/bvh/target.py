@@ -9,10 +9,11 @@ import numpy as np
 
 from motionrt.errors import FormatError, InvalidInputError
 from motionrt.formats.atomic import write_bytes
+from motionrt.formats.bvh.euler import euler_degrees
 from motionrt.formats.bvh.hierarchy import BvhJoint
 from motionrt.formats.bvh.read import BvhText
 from motionrt.formats.bvh.rig import joints_with_differences
-from motionrt.formats.bvh.write import euler_degrees, value_rows
+from motionrt.formats.bvh.write import value_rows
 from motionrt.formats.gltf.write import write_rig_glb
 from motionrt.formats.units import to_metres
 from motionrt.motion.skeleton import FloatArray

@@ -22,11 +22,11 @@ _MAGIC, _JSON, _BIN = 0x46546C67, 0x4E4F534A, 0x004E4942
 
 
 def read_container(path: Path) -> tuple[Json, bytes]:
-    """The JSON object and the binary chunk (empty if there is none) of a GLB file.
+    """The JSON object and the binary chunk (empty if there is none) of a GLB or, by its content, a glTF text file.
 
     Raises:
         MotionFileNotFoundError: there is no such file.
-        FormatError: not a whole GLB file of version 2, or larger than the limits above.
+        FormatError: not a whole file of glTF 2, or larger than the limits above.
     """
     require_file(path)
     try:
@@ -50,6 +50,8 @@ def _chunk(kind: int, content: bytes, filler: bytes) -> bytes:
 
 def _read(file: BinaryIO, size: int, path: Path) -> tuple[Json, bytes]:
     head = file.read(12)
+    if head.lstrip(b"\xef\xbb\xbf \t\r\n")[:1] == b"{":
+        return _parse(head + _rest_of_text(file, size, path), path), b""
     if len(head) < 12 or struct.unpack("<I", head[:4])[0] != _MAGIC:
         raise FormatError(path, _not_glb(head))
     version, length = struct.unpack("<II", head[4:])
@@ -68,6 +70,12 @@ def _read(file: BinaryIO, size: int, path: Path) -> tuple[Json, bytes]:
         kind, block = _next_chunk(file, at, length, path, FILE_LIMIT)
         binary = block if kind == _BIN else b""
     return _parse(text, path), binary
+
+
+def _rest_of_text(file: BinaryIO, size: int, path: Path) -> bytes:
+    if size > JSON_LIMIT:
+        raise FormatError(path, f"holds {size} bytes of JSON; at most {JSON_LIMIT} are read")
+    return file.read()
 
 
 def _next_chunk(file: BinaryIO, at: int, end: int, path: Path, limit: int) -> tuple[int, bytes]:
@@ -93,7 +101,7 @@ def _parse(text: bytes, path: Path) -> Json:
     if not isinstance(document, dict) or not isinstance(document.get("asset"), dict):
         raise FormatError(path, "its JSON is not a glTF document: it has no asset")
     if not str(document["asset"].get("version", "")).startswith("2."):
-        raise FormatError(path, "is not glTF 2; save it again as glTF 2.0 binary")
+        raise FormatError(path, "is not glTF 2; save it again as glTF 2.0")
     return document
 
 
@@ -102,6 +110,6 @@ def _no_constant(word: str) -> float:
 
 
 def _not_glb(head: bytes) -> str:
-    if head.lstrip()[:1] == b"{":
-        return "is glTF with JSON text, not GLB; save it as glTF Binary (.glb), one file with everything in it"
-    return "is not a GLB file: it does not start with 'glTF'"
+    if head.startswith(b"version http"):
+        return "is a pointer of git LFS, not the file itself: fetch it with 'git lfs pull'"
+    return "is no glTF file: it starts neither with 'glTF' nor with JSON"
