@@ -97,8 +97,8 @@ def motion_file_info(path: str | Path, *, mapping: Mapping[str, str] | None = No
         stance = read_stance(part, given, poses)
         motion = to_smpl24(part, mapping=mapping, reference=reference)
     except RigError as error:
-        unknown = {"height": None, "mapping": {}, "limb_error_degrees": None}
-        size = {"up": clip.up or "?", "metres_per_unit": clip.metres_per_unit}
+        unknown: dict[str, Any] = {"height": None, "mapping": {}, "limb_error_degrees": None}
+        size: dict[str, Any] = {"up": clip.up or "?", "metres_per_unit": clip.metres_per_unit}
         return MotionFileInfo(**facts, **size, **unknown, warnings=clip.notes, reason=str(error))
     error_degrees = limb_error(part, stance, motion)
     unit, height = _size(part, stance)

@@ -188,6 +188,9 @@ def _require_archive(path: Path) -> None:
 def _poses(arrays: dict[str, npt.NDArray[np.generic]], keys: tuple[str, ...], path: Path) -> Array:
     """``(F, W)`` rotation vectors of all joints, root first."""
     parts = [_numbers(arrays, key, path) for key in keys]
+    odd = next((key for key, part in zip(keys, parts, strict=True) if part.ndim not in {2, 3}), None)
+    if odd is not None:
+        raise FormatError(path, f"'{odd}' has the shape {arrays[odd].shape}, expected one row for each frame")
     parts = [part.reshape(len(part), -1) if part.ndim == 3 and part.shape[2] == 3 else part for part in parts]
     if any(part.ndim != 2 or len(part) != len(parts[0]) for part in parts):
         raise FormatError(path, f"{' and '.join(map(repr, keys))} do not fit together")

@@ -7,6 +7,7 @@ it: knees and elbows bend about their hinges, pelvis and chest are turned as the
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -88,8 +89,9 @@ class _Turner:
         line = self._bone("right_shoulder", "left_shoulder")
         chest = matched((self._bone("spine3", "neck"), line), (rest_direction("spine3", "neck"), _X))
         start, end = matrix_to_quaternion(out[:, 0]), matrix_to_quaternion(chest)
-        for k, name in enumerate(names, start=1):
-            out[:, SMPL24.index(name)] = quaternion_to_matrix(slerp(start, end, np.full(len(start), k / 3)))
+        for k, (name, above_it) in enumerate(pairwise((*names, "neck")), start=1):
+            shared = np.asarray(quaternion_to_matrix(slerp(start, end, np.full(len(start), k / 3))))
+            out[:, SMPL24.index(name)] = self._swung(shared, name, above_it)
         out[:, SMPL24.index("neck")] = self._swung(chest, "neck", "head")
         out[:, SMPL24.index("head")] = out[:, SMPL24.index("neck")]
 

@@ -98,7 +98,7 @@ def _settle(roles: dict[str, int], role: str, sources: list[tuple[int, int]], tr
     if role in roles or not sources:
         return
     if role.endswith("foot") and len({tree.parents[joint] for _, joint in sources}) == 1 and len(sources) > 2:
-        sources = [sources[len(sources) // 2]]  # toes side by side: the middle one
+        sources = [min(sources, key=lambda one: tree.from_middle(one[1], [joint for _, joint in sources]))]
     least = min(doubt for doubt, _ in sources)
     best = [joint for doubt, joint in sources if doubt == least]
     top = [joint for joint in best if all(other == joint or tree.is_above(joint, other) for other in best)]

@@ -72,6 +72,11 @@ class RigTree:
         """Whether ``upper`` is a proper ancestor of ``lower``."""
         return upper != lower and upper in self.ancestors(lower)
 
+    def from_middle(self, joint: int, siblings: Sequence[int]) -> float:
+        """Distance of ``joint`` from the middle of ``siblings``, which hang on the same joint; file units."""
+        places = np.median(np.asarray(self._clip.translations, dtype=np.float64), axis=0)
+        return float(np.linalg.norm(places[joint] - places[list(siblings)].mean(axis=0)))
+
     def rides(self, upper: int, lower: int) -> bool:
         """Whether ``lower``, on a branch of its own (a control), keeps its distance from ``upper`` as if it hung there.
 

@@ -22,6 +22,8 @@ def read_values(text: str, at: int, shape: tuple[int, int], path: Path) -> tuple
     values = to_floats(text[at:].split())
     if values is not None and values.size == shape[0] * shape[1] and values.size:
         return values.reshape(shape), ()
+    if values is not None and not values.size:
+        raise FormatError(path, "the file has no frames", line_of(text, at))
     whole = None if values is None else _whole_lines(text[at:], shape[1])
     if values is None or not whole:
         raise _diagnose(text[at:], line_of(text, at), shape, path)

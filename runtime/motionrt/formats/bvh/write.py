@@ -141,7 +141,8 @@ def _with_t_pose(motion: Motion) -> Motion:
 
 
 def _rows(writer: _Hierarchy) -> list[str]:
-    columns, clip = [], writer.clip
+    columns: list[npt.NDArray[np.floating]] = []
+    clip = writer.clip
     for joint in writer.order:
         if writer.moved[joint]:
             columns.append(clip.translations[:, joint].astype(np.float64) * writer.scale)
@@ -149,7 +150,7 @@ def _rows(writer: _Hierarchy) -> list[str]:
     return value_rows(np.concatenate(columns, axis=1))
 
 
-def value_rows(table: npt.NDArray[np.float64]) -> list[str]:
+def value_rows(table: npt.NDArray[np.floating]) -> list[str]:
     """Lines of the MOTION part: ``(F, C)`` with six decimals."""
     row = " ".join(["%.6f"] * table.shape[1])
     return [row % tuple(values) for values in (np.round(table, 6) + 0.0).tolist()]

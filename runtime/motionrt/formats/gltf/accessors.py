@@ -59,14 +59,12 @@ class GlbArrays:
         count = entry["count"] if _whole(entry.get("count")) else 0
         if not width or component not in _COMPONENTS or count < 1:
             raise self._error(f"{what} has an accessor of an unknown kind")
+        kind, sparse = np.dtype(_COMPONENTS[component]), "sparse" in entry
+        rows = np.empty(0) if sparse else self._rows(entry, what, count, width, kind)
         self._left -= count * width
         if self._left < 0:
             raise self._error(f"its animation holds more than {NUMBER_LIMIT} numbers; cut it")
-        kind = np.dtype(_COMPONENTS[component])
-        if "sparse" in entry:
-            rows = self._sparse(entry, what, count, width, kind)
-        else:
-            rows = self._rows(entry, what, count, width, kind)
+        rows = self._sparse(entry, what, count, width, kind) if sparse else rows
         values = rows.astype(np.float64)
         if component in _LARGEST:
             values = np.maximum(values / _LARGEST[component], -1.0)
@@ -126,7 +124,7 @@ class GlbArrays:
         folder = self._path.resolve().parent
         place = (folder / unquote(uri)).resolve()
         if "://" in uri or not place.is_relative_to(folder):
-            raise self._error(f"{what} lies in another place ('{uri[:60]}'); save everything in one .glb")
+            raise self._error(f"{what} lies in another file ('{uri[:60]}'); save everything in one .glb")
         if not place.is_file():
             raise self._error(f"{what} lies in '{uri[:60]}', which is not beside it; keep them together")
         if place.stat().st_size > FILE_LIMIT:

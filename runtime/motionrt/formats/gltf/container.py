@@ -112,4 +112,4 @@ def _no_constant(word: str) -> float:
 def _not_glb(head: bytes) -> str:
     if head.startswith(b"version http"):
         return "is a pointer of git LFS, not the file itself: fetch it with 'git lfs pull'"
-    return "is no glTF file: it starts neither with 'glTF' nor with JSON"
+    return "is not a GLB file nor glTF: it starts neither with 'glTF' nor with JSON"

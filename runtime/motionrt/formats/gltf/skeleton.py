@@ -115,10 +115,10 @@ def _completed(members: set[int], moving: set[int], document: Json, tree: NodeTr
     skins = [set(skin.get("joints", [])) for skin in document.get("skins", [])]
     others = set().union(*(skin for skin in skins if not skin & members)) if skins else set()
     out, bare = set(members), _bare(document) - others
-    top = {node for node in members if tree.parents[node] < 0}
+    anchors = {node for node in members if tree.parents[node] >= 0 or node in moving}
     for node in bare:
         line = tree.above(node)
-        limb = any(above in bare and tree.parents[above] in members - top for above in line)
+        limb = any(above in bare and tree.parents[above] in anchors for above in line)
         if limb and not others.intersection(line) and (node in moving or _deep(line, members)):
             out.update(tree.with_above([node]) & (bare | members))
     return out
