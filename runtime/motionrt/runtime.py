@@ -10,11 +10,12 @@ from typing import TYPE_CHECKING, overload
 import numpy as np
 
 from motionrt.errors import GalleryNotFoundError, InvalidInputError
-from motionrt.making import Making
+from motionrt.models.engine import Providers
 from motionrt.models.tmr import TextMotionModel
 from motionrt.motion import Motion
 from motionrt.motion.skeleton import FloatArray
-from motionrt.moving import Moving
+from motionrt.services.locomotion import Locomotion
+from motionrt.services.synthesis import Synthesis
 
 if TYPE_CHECKING:  # embedding a text, the shortest way to an answer, waits for none of these
     from onnxruntime import SessionOptions
@@ -30,7 +31,7 @@ DEFAULT_CAPTIONS = _ASSETS / "captions.txt"
 EMBEDDED_CAPTIONS = _ASSETS / "captions.npz"  # the same, embedded by the shipped models
 
 
-class Runtime(Moving, Making):
+class Runtime(Locomotion, Synthesis):
     """Search, describe and embed motion, make it of words, walk and act; every model opens when it is first needed.
 
     Args:
@@ -39,6 +40,8 @@ class Runtime(Moving, Making):
         session_options: options for every onnxruntime session, instead of ``threads``.
         variant: which files of the models, as in ``fp32``, by default those that the manifest prefers; a model without
             such a file gives its preferred one (the pose prior has no ``int8``).
+        providers: onnxruntime's execution providers of every session, the preferred one first, as in
+            ``["CUDAExecutionProvider", "CPUExecutionProvider"]``; by default the CPU.
     """
 
     def __init__(
@@ -48,23 +51,16 @@ class Runtime(Moving, Making):
         threads: int | None = None,
         session_options: SessionOptions | None = None,
         variant: str | None = None,
+        providers: Providers | None = None,
     ) -> None:
-        self._models = models
-        self._variant = variant
-        self._threads = threads
-        self._session_options = session_options
+        super().__init__(models, threads=threads, session_options=session_options, variant=variant, providers=providers)
         self._galleries: dict[Path, tuple[int, Gallery]] = {}
         self._captions: dict[tuple[str, ...], EmbeddedCaptions] = {}
 
     @cached_property
     def model(self) -> TextMotionModel:
         """The text and motion encoders."""
-        return TextMotionModel(
-            self._models,
-            variant=self._variant,
-            threads=self._threads,
-            session_options=self._session_options,
-        )
+        return TextMotionModel(self.sessions, variant=self._variant, sentences=self.sentences)
 
     @overload  # a str is a sequence of str, too, so the two overlap
     def retrieve(  # type: ignore[overload-overlap]
@@ -224,7 +220,7 @@ class Runtime(Moving, Making):
 
     def _opener(self) -> partial[TextMotionModel]:
         """Opens the model with one thread: the same gallery, byte for byte, whatever builds it."""
-        return partial(TextMotionModel, self._models, variant=self._variant, threads=1)
+        return partial(TextMotionModel, self._models, variant=self._variant, threads=1, providers=self._providers)
 
 
 def _starter() -> Path:

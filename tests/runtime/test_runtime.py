@@ -14,6 +14,7 @@ from motions import random_motion, standing, walking
 import motionrt
 from motionrt import runtime as runtime_module
 from motionrt.errors import GalleryError, GalleryNotFoundError, InvalidInputError
+from motionrt.models.engine import CPU
 from motionrt.retrieval import Gallery, motion_features
 from motionrt.runtime import Runtime
 
@@ -175,7 +176,7 @@ def test_galleries_are_built_and_updated_through_the_runtime(tmp_path: Path, mon
     standing(30).save(tmp_path / "stand.bvh")
     assert runtime.update_gallery(tmp_path).added == ("stand.bvh",)
     assert (
-        opened == [{"models": "my models", "variant": None, "threads": 1}] * 2
+        opened == [{"models": "my models", "variant": None, "threads": 1, "providers": CPU}] * 2
     )  # one thread each, for the same bytes anywhere
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
-from . import axes, curves, figure
+from . import axes, curves, figure, rigs
 
 if TYPE_CHECKING:
     from motionrt import Motion
@@ -48,8 +48,6 @@ def _keys(armature: bpy.types.Object, motion: Motion) -> list[tuple[str, str, np
     """(bone, channel, values (F, N)) of a motion."""
     if figure.is_own(armature):
         return _own_keys(armature, motion)
-    from . import rigs
-
     return rigs.keys(armature, motion)
 
 
@@ -58,7 +56,7 @@ def _own_keys(armature: bpy.types.Object, motion: Motion) -> list[tuple[str, str
     keys = []
     for joint, name in enumerate(motion.skeleton.names):
         rest = rest_rotation(armature, name)
-        keys.append((name, "rotation_quaternion", quaternions(rest.T @ turns[:, joint] @ rest)))
+        keys.append((name, "rotation_quaternion", axes.quaternions(rest.T @ turns[:, joint] @ rest)))
     pelvis = motion.skeleton.names[0]
     away = axes.points(motion.root.astype(np.float64)) - np.array(armature.data.bones[pelvis].head_local)
     keys.append((pelvis, "location", away @ rest_rotation(armature, pelvis)))
@@ -68,13 +66,6 @@ def _own_keys(armature: bpy.types.Object, motion: Motion) -> list[tuple[str, str
 def rest_rotation(armature: bpy.types.Object, bone: str) -> np.ndarray:
     """``(3, 3)`` of a bone at rest, in the armature."""
     return np.array(armature.data.bones[bone].matrix_local.to_3x3())
-
-
-def quaternions(matrices: np.ndarray) -> np.ndarray:
-    """Rotations ``(F, 3, 3)`` as quaternions ``(F, 4)`` wxyz whose signs never jump."""
-    from motionrt.motion.rotations import matrix_to_quaternion
-
-    return axes.steady(matrix_to_quaternion(matrices))
 
 
 def seen(context: bpy.types.Context, armature: bpy.types.Object) -> Motion:
@@ -104,8 +95,6 @@ def _pose(scene: bpy.types.Scene, armature: bpy.types.Object, time: float) -> np
 
 def _motion(armature: bpy.types.Object, poses: np.ndarray) -> Motion:
     if not figure.is_own(armature):
-        from . import rigs
-
         return rigs.motion(armature, poses, FPS)
     from motionrt import SMPL24, Motion
     from motionrt.motion.kinematics import global_to_local
@@ -121,8 +110,6 @@ def ground(armature: bpy.types.Object, place: np.ndarray) -> tuple[float, float]
     """A point of the world as (x, z) of the motion that the armature shows."""
     local = np.array(armature.matrix_world.inverted() @ place)
     if not figure.is_own(armature):
-        from . import rigs
-
         local = rigs.metres(armature, local)
         return float(local[0]), float(local[2])
     x, _, z = axes.points_back(local)

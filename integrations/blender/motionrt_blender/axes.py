@@ -36,3 +36,10 @@ def steady(quaternions: np.ndarray) -> np.ndarray:
     dots = (quaternions[1:] * quaternions[:-1]).sum(-1)
     flips = np.cumprod(np.where(dots < 0, -1.0, 1.0), axis=0)
     return np.concatenate([quaternions[:1], quaternions[1:] * flips[..., None]])
+
+
+def quaternions(matrices: np.ndarray) -> np.ndarray:
+    """Rotations ``(F, 3, 3)`` as quaternions ``(F, 4)`` wxyz whose signs never jump."""
+    from motionrt.motion.rotations import matrix_to_quaternion
+
+    return steady(matrix_to_quaternion(matrices))

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
+from . import axes
+
 if TYPE_CHECKING:
     from motionrt import Motion
     from motionrt.rigs.clip import RigClip
@@ -26,8 +28,6 @@ class _Armature:
 
 def keys(armature: bpy.types.Object, motion: Motion) -> list[tuple[str, str, np.ndarray]]:
     """(bone, channel, values (F, N)) for the bones that move; fingers, twist bones and props stay as they are."""
-    from .armatures import quaternions
-
     shown = motion.retarget_to(rig_of(armature)).clip
     rests, offsets = _rest(armature)
     out = []
@@ -35,7 +35,7 @@ def keys(armature: bpy.types.Object, motion: Motion) -> list[tuple[str, str, np.
         turns = rests[joint].T @ shown.rotations[:, joint].astype(np.float64)
         moves = (shown.translations[:, joint] - offsets[joint]) @ rests[joint]
         if np.abs(turns - np.eye(3)).max() > _SAME:
-            out.append((name, "rotation_quaternion", quaternions(turns)))
+            out.append((name, "rotation_quaternion", axes.quaternions(turns)))
         if np.abs(moves).max() > _SAME * np.abs(offsets).max():
             out.append((name, "location", moves))
     return out

@@ -9,6 +9,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 
 from motionrt.bench.onnx_bytes import FLOAT, INT32, UINT8, product_model
+from motionrt.models.engine import open_session
 from motionrt.models.sessions import quiet_options
 
 SHAPES: dict[str, tuple[int, int, int]] = {
@@ -36,8 +37,6 @@ def machine_peaks(threads: int, seconds: float = 0.3) -> dict[str, Rates]:
 
 
 def _product(shape: tuple[int, int, int], threads: int, seconds: float, *, integer: bool) -> float:
-    import onnxruntime
-
     rows, depth, columns = shape
     chance = np.random.default_rng(0)
     if integer:
@@ -48,7 +47,7 @@ def _product(shape: tuple[int, int, int], threads: int, seconds: float, *, integ
         weights = chance.standard_normal((depth, columns), np.float32)
         given = chance.standard_normal((rows, depth), np.float32)
         model = product_model("MatMul", rows, weights, FLOAT, FLOAT)
-    session = onnxruntime.InferenceSession(model, quiet_options(threads), providers=["CPUExecutionProvider"])
+    session = open_session(model, quiet_options(threads))
     feeds = {"a": given}
     return rows * depth * columns / 1e9 / _best(lambda: session.run(None, feeds), seconds)
 

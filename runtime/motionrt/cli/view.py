@@ -12,7 +12,7 @@ from motionrt.cli.options import command
 
 if TYPE_CHECKING:
     from motionrt.studio.serving import Page
-    from motionrt.studio.session import Show
+    from motionrt.studio.windows import Show
 
 HELP = """play motion files in the browser, one or several side by side
 Keys: P plays and pauses, J and K step, F frames everything. The page needs no network. Ctrl-C ends it."""

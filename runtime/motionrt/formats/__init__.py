@@ -7,36 +7,33 @@ from typing import TYPE_CHECKING
 from motionrt._lazy import lazily
 
 if TYPE_CHECKING:
-    from motionrt.formats.acclaim.amc import read_amc
-    from motionrt.formats.acclaim.asf import read_asf
-    from motionrt.formats.bvh.read import read_bvh
-    from motionrt.formats.bvh.write import write_bvh
+    from motionrt.formats.acclaim import read_amc, read_asf
+    from motionrt.formats.bvh import read_bvh, write_bvh
     from motionrt.formats.fbx import read_fbx
     from motionrt.formats.folder import animations_of, find_motions
-    from motionrt.formats.gltf.read import read_glb
-    from motionrt.formats.gltf.write import write_glb
+    from motionrt.formats.gltf import read_glb, write_glb
     from motionrt.formats.info import MotionFileInfo, motion_file_info
     from motionrt.formats.leading_pose import drop_leading_tpose
     from motionrt.formats.load import MOTION_SUFFIXES, WRITABLE_SUFFIXES, load_motion, load_rig, save_motion
     from motionrt.formats.numbers import read_npy
+    from motionrt.formats.rig_files import RIG_SUFFIXES
     from motionrt.formats.smpl import read_npz, write_npz
-    from motionrt.formats.target import RIG_SUFFIXES, load_target
+    from motionrt.formats.target import load_target, retarget_to
+    from motionrt.rigs.target import Rig, RigMotion
 
 _HOMES = {
-    "smpl": ("read_npz", "write_npz"),
-    "acclaim.amc": ("read_amc",),
-    "acclaim.asf": ("read_asf",),
+    "acclaim": ("read_amc", "read_asf"),
+    "bvh": ("read_bvh", "write_bvh"),
     "fbx": ("read_fbx",),
     "folder": ("animations_of", "find_motions"),
+    "gltf": ("read_glb", "write_glb"),
     "info": ("MotionFileInfo", "motion_file_info"),
     "numbers": ("read_npy",),
-    "bvh.read": ("read_bvh",),
-    "bvh.write": ("write_bvh",),
-    "gltf.read": ("read_glb",),
-    "gltf.write": ("write_glb",),
     "leading_pose": ("drop_leading_tpose",),
     "load": ("MOTION_SUFFIXES", "WRITABLE_SUFFIXES", "load_motion", "load_rig", "save_motion"),
-    "target": ("RIG_SUFFIXES", "load_target"),
+    "smpl": ("read_npz", "write_npz"),
+    "rig_files": ("RIG_SUFFIXES",),
+    "target": ("Rig", "RigMotion", "load_target", "retarget_to"),
 }
 
 __all__ = [
@@ -44,6 +41,8 @@ __all__ = [
     "RIG_SUFFIXES",
     "WRITABLE_SUFFIXES",
     "MotionFileInfo",
+    "Rig",
+    "RigMotion",
     "animations_of",
     "drop_leading_tpose",
     "find_motions",
@@ -58,6 +57,7 @@ __all__ = [
     "read_glb",
     "read_npy",
     "read_npz",
+    "retarget_to",
     "save_motion",
     "write_bvh",
     "write_glb",

@@ -13,16 +13,11 @@ from typing import Any
 
 import numpy as np
 
-from motionrt.errors import FormatError, InvalidInputError, MissingDependencyError
-from motionrt.formats.bvh.target import with_rest_frame
-from motionrt.formats.bvh.write import UNITS, write_rig_bvh
+from motionrt.errors import FormatError, MissingDependencyError
 from motionrt.formats.gltf.choice import chosen
-from motionrt.formats.gltf.write import write_rig_glb
 from motionrt.formats.text import require_file
-from motionrt.formats.units import to_metres
 from motionrt.motion.rotations import Array, normalise, quaternion_to_matrix
 from motionrt.rigs.clip import RigClip
-from motionrt.rigs.target import RigMotion
 
 FILE_LIMIT = 2**31
 JOINT_LIMIT, VALUE_LIMIT = 2048, 20_000_000
@@ -80,25 +75,6 @@ def _standing(scene: Any, joints: _Joints) -> RigClip:
     offsets, rest = _rest(scene, joints)
     parents, rest = tuple(joints.parents), rest.astype(np.float32)
     return RigClip(joints.names, parents, offsets, turns[None], places[None], _rate(scene), "y", 1.0, rest)
-
-
-@dataclass(frozen=True)
-class FbxFile:
-    """An FBX file as the file of a rig: its motions are written as ``.glb`` or ``.bvh``, skeleton and animation."""
-
-    path: Path
-
-    def save(self, motion: RigMotion, path: Path, *, units: str | None, t_pose: bool) -> Path:
-        """See :meth:`motionrt.rigs.target.RigMotion.save`."""
-        suffix = path.suffix.lower()
-        if suffix not in {".bvh", ".glb"}:
-            raise InvalidInputError(f"{path}: a motion of an FBX rig is written as .glb or .bvh")
-        if suffix == ".glb":
-            if t_pose or units not in {None, "m"}:
-                raise InvalidInputError("units and t_pose are for .bvh; a .glb is in metres and knows its rest pose")
-            return write_rig_glb(to_metres(motion), path)
-        clip = to_metres(motion)
-        return write_rig_bvh(with_rest_frame(clip) if t_pose else clip, path, scale=UNITS[units or "cm"])
 
 
 def fbx_animations(path: Path) -> list[str]:

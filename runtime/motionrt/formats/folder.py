@@ -6,7 +6,8 @@ import os
 from pathlib import Path
 
 from motionrt.errors import MotionFileNotFoundError, MotionRTError
-from motionrt.formats.load import GLTF_SUFFIXES, MOTION_SUFFIXES
+from motionrt.formats.gltf.container import GLTF_SUFFIXES
+from motionrt.formats.load import MOTION_SUFFIXES
 
 
 def find_motions(folder: str | Path) -> list[tuple[str, str | None]]:

@@ -9,26 +9,24 @@ from dataclasses import replace
 from pathlib import Path
 
 from motionrt.errors import FormatError, InvalidInputError, MotionFileWarning, MotionRTError
-from motionrt.formats.acclaim.amc import read_amc
-from motionrt.formats.bvh.read import read_bvh
-from motionrt.formats.bvh.write import UNITS, write_bvh
+from motionrt.formats.acclaim import read_amc
+from motionrt.formats.bvh import read_bvh, write_bvh
 from motionrt.formats.fbx import read_fbx
-from motionrt.formats.gltf.read import read_glb
-from motionrt.formats.gltf.write import write_glb
+from motionrt.formats.gltf import read_glb, write_glb
+from motionrt.formats.gltf.container import GLTF_SUFFIXES
 from motionrt.formats.leading_pose import drop_leading_tpose
 from motionrt.formats.numbers import read_npy
 from motionrt.formats.smpl import read_npz, write_npz
 from motionrt.formats.text import require_file
+from motionrt.formats.units import units_per_metre
 from motionrt.motion.motion import Motion
 from motionrt.rigs.clip import RigClip
 from motionrt.rigs.retarget_in import to_smpl24
 
-GLTF_SUFFIXES = (".glb", ".gltf", ".vrm", ".vrma")
-
 MOTION_SUFFIXES = (".bvh", ".amc", ".npz", ".npy", ".fbx", *GLTF_SUFFIXES)
 """What :func:`load_motion` reads, in any mixture of upper and lower case."""
 
-WRITABLE_SUFFIXES = (".bvh", ".glb", ".npz")
+WRITABLE_SUFFIXES = (".bvh", ".glb", ".gltf", ".vrma", ".npz")
 """What :func:`save_motion` writes."""
 
 
@@ -119,7 +117,7 @@ def load_motion(
 
 
 def save_motion(motion: Motion, path: str | Path, *, units: str | None = None, t_pose: bool = False) -> Path:
-    """Write a motion as ``.bvh``, ``.glb`` or ``.npz`` (AMASS), whole or not at all; returns the path.
+    """Write a motion whole or not at all, as ``.bvh``, ``.glb``, ``.gltf``, ``.vrma`` or ``.npz``; returns the path.
 
     Args:
         motion: what to write.
@@ -133,16 +131,10 @@ def save_motion(motion: Motion, path: str | Path, *, units: str | None = None, t
     path = Path(path)
     suffix = _suffix(path, WRITABLE_SUFFIXES, "written")
     if suffix == ".bvh":
-        return write_bvh(motion, path, scale=_units_per_metre(units or "cm"), t_pose=t_pose)
+        return write_bvh(motion, path, scale=units_per_metre(units or "cm"), t_pose=t_pose)
     if t_pose or units not in {None, "m"}:
         raise InvalidInputError(f"units and t_pose are for .bvh; a '{suffix}' is in metres and knows its rest pose")
-    return write_glb(motion, path) if suffix == ".glb" else write_npz(motion, path)
-
-
-def _units_per_metre(units: str) -> float:
-    if units not in UNITS:
-        raise InvalidInputError(f"units must be one of {', '.join(UNITS)}, not '{units}'")
-    return UNITS[units]
+    return write_npz(motion, path) if suffix == ".npz" else write_glb(motion, path)
 
 
 def _suffix(path: Path, known: tuple[str, ...], verb: str) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import numpy as np
@@ -10,19 +10,19 @@ import numpy as np
 from motionrt.errors import FormatError, InvalidInputError, MotionRTError
 from motionrt.formats.bvh.read import parse_bvh
 from motionrt.formats.bvh.rig import build_rig
-from motionrt.formats.bvh.target import BvhFile
-from motionrt.formats.fbx import FbxFile, read_fbx
+from motionrt.formats.bvh.target import BvhTarget
+from motionrt.formats.fbx import read_fbx
+from motionrt.formats.gltf.container import GLTF_SUFFIXES
 from motionrt.formats.gltf.document import open_glb
-from motionrt.formats.gltf.target import GlbFile
+from motionrt.formats.gltf.target import GlbTarget
 from motionrt.formats.leading_pose import drop_leading_tpose
-from motionrt.formats.load import GLTF_SUFFIXES
+from motionrt.formats.rig_files import RIG_SUFFIXES, BvhRigFile, FbxRigFile, GlbRigFile
 from motionrt.formats.text import require_file
+from motionrt.motion.motion import Motion
 from motionrt.motion.skeleton import FloatArray
 from motionrt.rigs.clip import RigClip
-from motionrt.rigs.target import Rig
-
-RIG_SUFFIXES = (".bvh", ".fbx", *GLTF_SUFFIXES)
-"""What :func:`load_target` reads."""
+from motionrt.rigs.retarget_out import to_rig
+from motionrt.rigs.target import Rig, RigMotion
 
 
 def load_target(path: str | Path, *, animation: int | str | None = None, skin: int | str | None = None) -> Rig:
@@ -57,12 +57,20 @@ def load_target(path: str | Path, *, animation: int | str | None = None, skin: i
         raise FormatError(path, f"cannot be read ({type(error).__name__}: {error})") from error
 
 
+def retarget_to(
+    motion: Motion, rig: Rig | str | Path, *, mapping: Mapping[str, str] | None = None, root_motion: bool | str = False
+) -> RigMotion:
+    """``motion`` on a character, its file or what :func:`load_target` made of it, as :meth:`.Motion.retarget_to`."""
+    target = load_target(rig) if isinstance(rig, str | Path) else rig
+    return to_rig(motion, target, mapping=mapping, root_motion=root_motion)
+
+
 def _from_bvh(path: Path) -> Rig:
     text = parse_bvh(path)
     clip = build_rig(text.joints, text.values, text.fps)
     rest, reference = drop_leading_tpose(clip)
     movable = [len(joint.positions) == 3 for joint in text.joints]
-    return Rig(rest, _poses(rest, reference, clip.rotations[0]), movable, BvhFile(path, text, clip))
+    return Rig(rest, _poses(rest, reference, clip.rotations[0]), movable, BvhRigFile(BvhTarget(path, text, clip)))
 
 
 def _from_glb(path: Path, animation: int | str | None, skin: int | str | None) -> Rig:
@@ -73,12 +81,12 @@ def _from_glb(path: Path, animation: int | str | None, skin: int | str | None) -
         tracks = document.tracks(animation)
     clip = still if tracks is None else document.clip(tracks)
     poses = _poses(clip, None, still.rotations[0], clip.rotations[0])
-    return Rig(clip, poses, [True] * len(clip.names), GlbFile(document))
+    return Rig(clip, poses, [True] * len(clip.names), GlbRigFile(GlbTarget(document)))
 
 
 def _from_fbx(path: Path, animation: int | str | None) -> Rig:
     clip = read_fbx(path, animation=animation, still=animation is None)
-    return Rig(clip, _poses(clip, None, clip.rotations[0]), [True] * len(clip.names), FbxFile(path))
+    return Rig(clip, _poses(clip, None, clip.rotations[0]), [True] * len(clip.names), FbxRigFile(path))
 
 
 def _poses(clip: RigClip, *others: FloatArray | None) -> list[FloatArray]:

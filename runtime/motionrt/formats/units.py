@@ -1,4 +1,4 @@
-"""The unit of a rig whose format does not say: the usual one that makes its legs those of a person."""
+"""Units of files: by name, or the usual one that makes the legs of a rig those of a person."""
 
 from __future__ import annotations
 
@@ -6,12 +6,23 @@ from dataclasses import replace
 
 import numpy as np
 
+from motionrt.errors import InvalidInputError
 from motionrt.motion.rotations import rotation_between
 from motionrt.rigs.clip import RigClip
 from motionrt.rigs.target import RigMotion
 
+UNITS = {"m": 1.0, "cm": 100.0, "mm": 1000.0, "in": 1 / 0.0254}
+"""Names of units and how many of them are a metre."""
+
 _USUAL = (1.0, 0.1, 0.0254, 0.01, 0.001, 0.3048, 2.54 / 45, 0.056444)
 """Metres per unit: metres, decimetres, inches, centimetres, millimetres, feet, and CMU's 2.54/45 m."""
+
+
+def units_per_metre(units: str) -> float:
+    """How many of the unit of that name are a metre; InvalidInputError lists the names."""
+    if units not in UNITS:
+        raise InvalidInputError(f"units must be one of {', '.join(UNITS)}, not '{units}'")
+    return UNITS[units]
 
 
 def metres_per_unit(units_per_metre: float) -> float:

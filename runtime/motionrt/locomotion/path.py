@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from motionrt.errors import FormatError, InvalidInputError
 from motionrt.formats.text import read_text, to_float
+from motionrt.locomotion.corners import round_corners
 from motionrt.motion.skeleton import FloatArray
 
 _SAME_POINT = 1e-6
@@ -155,8 +156,6 @@ class Path:
 
         This knows nothing of walls: paths from :meth:`Scene.plan` are rounded already, and stay clear of them.
         """
-        from motionrt.locomotion.scene.corners import round_corners
-
         return Path(round_corners(self.points, [(radius, lambda _: True)]).astype(np.float32), self.notes)
 
 

@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from motionrt.models.checks import verified
+from motionrt.models.engine import Providers, checked_providers, engine, open_session
 from motionrt.models.locate import find_manifest
 from motionrt.models.manifest import Manifest, Model, Variant
 from motionrt.models.reading import load_manifest
@@ -31,10 +32,11 @@ class Sessions:
         models: the manifest or its folder; None takes those that came with motionrt.
         threads: threads of every session, by default at most 2 of those that the process may use.
         session_options: options for every session, instead of ``threads``.
+        providers: onnxruntime's execution providers of every session, the preferred one first; by default the CPU.
 
     Raises:
         ModelFileError, ManifestError: no manifest, or a bad one.
-        InvalidInputError: ``threads`` is not a whole number above 0.
+        InvalidInputError: ``threads`` is not a whole number above 0, or ``providers`` is no list of providers.
     """
 
     def __init__(
@@ -43,7 +45,9 @@ class Sessions:
         *,
         threads: int | None = None,
         session_options: SessionOptions | None = None,
+        providers: Providers | None = None,
     ) -> None:
+        self.providers = checked_providers(providers)
         self.manifest: Manifest = load_manifest(find_manifest(models))
         self.threads = thread_count(threads)
         self._options = session_options
@@ -73,8 +77,7 @@ class Sessions:
 
     def prepare(self, *models: str, variant: str | None = None) -> None:
         """Start to open models in the background; what goes wrong is raised when their session is asked for."""
-        import onnxruntime  # noqa: F401  # once, before the threads ask for it together
-
+        engine()  # once, before the threads ask for it together
         for model in models:
             threading.Thread(target=self._try_to_open, args=(model, variant)).start()
 
@@ -99,10 +102,8 @@ class Sessions:
         return opening.result()
 
     def _open(self, path: Path) -> InferenceSession:
-        import onnxruntime
-
         options = self._options if self._options is not None else quiet_options(self.threads)
-        return onnxruntime.InferenceSession(str(path), options, providers=["CPUExecutionProvider"])
+        return open_session(str(path), options, self.providers)
 
 
 class Opening(threading.Thread):
@@ -132,9 +133,7 @@ def quiet_options(threads: int) -> SessionOptions:
 
     Memory patterns are off: they are kept for every new length of input, and bring nothing here.
     """
-    import onnxruntime
-
-    options = onnxruntime.SessionOptions()
+    options: SessionOptions = engine().SessionOptions()
     options.intra_op_num_threads = threads
     options.inter_op_num_threads = 1
     options.enable_mem_pattern = False

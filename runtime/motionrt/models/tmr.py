@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from motionrt.errors import InvalidInputError
+from motionrt.models.engine import Providers
 from motionrt.models.sessions import Arrays, Sessions
 from motionrt.models.text import MODEL, SentenceEncoder, checked_texts
 
@@ -36,6 +37,8 @@ class TextMotionModel:
         variant: which files, e.g. ``fp32``; by default what the manifest says of every model.
         threads: threads of every model, by default at most 2 of those that the process may use.
         session_options: options for every onnxruntime session, instead of ``threads``.
+        providers: onnxruntime's execution providers, the preferred one first; by default the CPU.
+        sentences: the sentence encoder, where there is one already.
 
     Raises:
         ModelFileError, ManifestError: no manifest, or a bad one.
@@ -50,14 +53,16 @@ class TextMotionModel:
         variant: str | None = None,
         threads: int | None = None,
         session_options: SessionOptions | None = None,
+        providers: Providers | None = None,
+        sentences: SentenceEncoder | None = None,
     ) -> None:
         self.sessions = (
             models
             if isinstance(models, Sessions)
-            else Sessions(models, threads=threads, session_options=session_options)
+            else Sessions(models, threads=threads, session_options=session_options, providers=providers)
         )
         self.variant = variant
-        self.sentences = SentenceEncoder(self.sessions, variant)
+        self.sentences = sentences or SentenceEncoder(self.sessions, variant)
         self._prepared = False
 
     @cached_property

@@ -1,16 +1,17 @@
 """Whole-motion transforms: resampling, mirroring, canonical facing, grounding.
 
-They take and return a :class:`motionrt.motion.motion.Motion`, whose methods they are.
+They take and return a :class:`motionrt.Motion`, whose methods most of them are.
 """
 
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TypeVar
 
 import numpy as np
 
 from motionrt.errors import InvalidInputError
+from motionrt.motion.frames import Frames
 from motionrt.motion.rotations import (
     Array,
     axis_rotation,
@@ -21,15 +22,14 @@ from motionrt.motion.rotations import (
 )
 from motionrt.motion.skeleton import FloatArray
 
-if TYPE_CHECKING:
-    from motionrt.motion.motion import Motion
+Clip = TypeVar("Clip", bound=Frames)
 
 TOE_JOINTS = ("left_foot", "right_foot")
 _ACROSS_JOINTS = (("left_hip", "right_hip"), ("left_shoulder", "right_shoulder"))
 _MIRROR = np.diag([-1.0, 1.0, 1.0]).astype(np.float32)
 
 
-def facing(motion: Motion) -> Array:
+def facing(motion: Frames) -> Array:
     """Unit heading of the body in the ground plane, ``(F, 3)``: across hips and shoulders, crossed with up."""
     positions, index = motion.positions(), motion.skeleton.index
     pairs = [(index(left), index(right)) for left, right in _ACROSS_JOINTS]
@@ -39,12 +39,12 @@ def facing(motion: Motion) -> Array:
     return np.where(length < 1e-8, [0, 0, 1], forward / np.maximum(length, 1e-8)).astype(np.float32)
 
 
-def heading(motion: Motion) -> Array:
+def heading(motion: Frames) -> Array:
     """Yaw of :func:`facing`, ``(F,)`` radians from +Z towards +X."""
     return yaw_angle(facing(motion))
 
 
-def resample(motion: Motion, fps: float) -> Motion:
+def resample(motion: Clip, fps: float) -> Clip:
     """``motion`` at ``fps`` frames per second; frame 0 stays frame 0, times beyond the last frame are not invented."""
     if not (np.isfinite(fps) and fps > 0):
         raise InvalidInputError(f"fps must be a positive number, not {fps}")
@@ -64,14 +64,14 @@ def resample(motion: Motion, fps: float) -> Motion:
     return replace(motion, rotations=rotations, root=root, fps=fps)
 
 
-def mirror(motion: Motion) -> Motion:
+def mirror(motion: Clip) -> Clip:
     """Reflect about x = 0: ``R' = M R M`` of the opposite joint, with ``M = diag(-1, 1, 1)``."""
     partners = list(motion.skeleton.mirrored_joints)
     rotations = np.asarray(_MIRROR @ motion.rotations[:, partners] @ _MIRROR, dtype=np.float32)
     return replace(motion, rotations=rotations, root=motion.root @ _MIRROR)
 
 
-def turned(motion: Motion, yaw: float) -> Motion:
+def turned(motion: Clip, yaw: float) -> Clip:
     """Turn about the vertical axis through the world's origin by ``yaw`` radians."""
     turn = axis_rotation("Y", np.float32(yaw)).astype(np.float32)
     rotations = motion.rotations.copy()
@@ -79,24 +79,24 @@ def turned(motion: Motion, yaw: float) -> Motion:
     return replace(motion, rotations=rotations, root=motion.root @ turn.T)
 
 
-def moved(motion: Motion, offset: Array) -> Motion:
+def moved(motion: Clip, offset: Array) -> Clip:
     """Translate by ``offset`` ``(3,)`` metres."""
     way: FloatArray = np.asarray(offset, dtype=np.float32)
     return replace(motion, root=motion.root + way).posed_as(motion, way)
 
 
-def canonical(motion: Motion) -> Motion:
+def canonical(motion: Clip) -> Clip:
     """Frame 0 above the origin and facing +Z; heights stay."""
     upright = turned(motion, -float(heading(motion[:1])[0]))
     return moved(upright, -upright.root[0] * np.array([1, 0, 1], dtype=np.float32))
 
 
-def floor_height(motion: Motion) -> float:
+def floor_height(motion: Frames) -> float:
     """Height in metres of the floor under ``motion``: the 1st percentile over frames of its lower toe joint."""
     toes = [motion.skeleton.index(name) for name in TOE_JOINTS]
     return float(np.percentile(motion.positions()[:, toes, 1].min(axis=1), 1.0))
 
 
-def grounded(motion: Motion) -> Motion:
+def grounded(motion: Clip) -> Clip:
     """Moved vertically so that the floor of the motion (:func:`floor_height`) lies at y = 0."""
     return moved(motion, np.array([0, -floor_height(motion), 0], dtype=np.float32))

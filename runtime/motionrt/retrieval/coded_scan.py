@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from motionrt.models.engine import engine, open_session
 from motionrt.models.sessions import quiet_options
 from motionrt.motion.skeleton import FloatArray
 from motionrt.retrieval.codes import LEVELS, ZERO, ByteArray, CodedQuery, Codes, code_query, code_rows, padded
@@ -129,13 +130,11 @@ def _below(value: float) -> np.float32:
 
 
 def _open(codes: ByteArray, scales: FloatArray) -> InferenceSession:
-    import onnxruntime
-
     rows, width = codes.shape
     options = quiet_options(threads=1)  # a second one waits for the same memory
-    values = [onnxruntime.OrtValue.ortvalue_from_numpy(array) for array in (codes.reshape(rows, 1, width), scales)]
+    values = [engine().OrtValue.ortvalue_from_numpy(array) for array in (codes.reshape(rows, 1, width), scales)]
     options.add_external_initializers(["codes", "scales"], values)
-    return onnxruntime.InferenceSession(scan_model(rows, width), options, providers=["CPUExecutionProvider"])
+    return open_session(scan_model(rows, width), options)
 
 
 def _run(session: InferenceSession, numbers: FloatArray) -> FloatArray:

@@ -30,6 +30,7 @@ _ANIMAL = _WINGS | {
 _SHARES = {"thighs to shanks": (0.25, 4.0), "arms to legs": (0.2, 3.0), "trunk to legs": (0.12, 4.0)}
 """Of lengths; game characters with short legs and long arms are people as well."""
 
+_NO_BONE = 1000.0
 _ALWAYS = 0.95
 _LYING = 0.6
 """Cosine between trunk and vertical below which the trunk does not stand."""
@@ -79,6 +80,8 @@ def _by_proportions(motion: RigPose) -> str | None:
     sides = ("left", "right")
     thigh, shank = (sum(length(s, *ends) for s in sides) for ends in (("hip", "knee"), ("knee", "ankle")))
     upper, lower = (sum(length(s, *ends) for s in sides) for ends in (("shoulder", "elbow"), ("elbow", "wrist")))
+    if min(thigh, shank) * _NO_BONE < max(thigh, shank):
+        return None  # said better by what needs the bone
     trunk = 2 * float(np.median(np.linalg.norm(motion.trunk(), axis=-1)))
     leg = max(thigh + shank, 1e-12)
     found = {"thighs to shanks": thigh / max(shank, 1e-12), "arms to legs": (upper + lower) / leg}

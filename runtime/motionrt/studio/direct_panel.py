@@ -23,7 +23,7 @@ from motionrt.studio.script_text import script_text
 if TYPE_CHECKING:
     from motionrt.locomotion import Performance, Script
     from motionrt.studio.scenery import Scenery
-    from motionrt.studio.studio_session import StudioSession
+    from motionrt.studio.windows import StudioWindow
 
 OFF = "Look"
 MOVES = {OFF: None, "Walk": drafts.WALK, "Path": drafts.PATH, "Start": drafts.START}
@@ -39,7 +39,7 @@ class DirectPanel:
         session: whose.
     """
 
-    def __init__(self, session: StudioSession) -> None:
+    def __init__(self, session: StudioWindow) -> None:
         self._session, self.history = session, History()
         self._tool: str | None = None
         self._listening = False
@@ -245,4 +245,4 @@ class DirectPanel:
 
     def download(self) -> None:
         """Hand the script over."""
-        self._session.export.hand_over("script.yaml", self.script().encode())
+        self._session.hand_over("script.yaml", self.script().encode())

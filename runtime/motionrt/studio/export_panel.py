@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from motionrt.studio.workshop import file_name, formats, motion_bytes, save_in
 
 if TYPE_CHECKING:
-    from motionrt.studio.studio_session import StudioSession
+    from motionrt.studio.windows import StudioWindow
 
 
 class ExportPanel:
@@ -17,7 +17,7 @@ class ExportPanel:
         session: whose.
     """
 
-    def __init__(self, session: StudioSession) -> None:
+    def __init__(self, session: StudioWindow) -> None:
         self._session = session
         gui, folder = session.client.gui, session.workshop.folder
         self._which: Any = gui.add_markdown("")
@@ -41,12 +41,7 @@ class ExportPanel:
 
     def download(self) -> None:
         """Hand the file to the browser."""
-        self.hand_over(*self.content())
-
-    def hand_over(self, name: str, content: bytes) -> None:
-        """A file for the browser to save."""
-        self._session.client.send_file_download(name, content, save_immediately=True)
-        self._session.say("Downloaded", name)
+        self._session.hand_over(*self.content())
 
     def save(self) -> None:
         """Write the file into the folder."""

@@ -12,7 +12,7 @@ from motionrt.studio.jobs import Told
 
 if TYPE_CHECKING:
     from motionrt.retrieval import Description
-    from motionrt.studio.studio_session import StudioSession
+    from motionrt.studio.windows import StudioWindow
 
 ALIGN = {"from the start": "start", "stretched": "stretch", "in step": "phase"}
 EMPTY = "empty"
@@ -26,7 +26,7 @@ class MakePanel:
         session: whose.
     """
 
-    def __init__(self, session: StudioSession) -> None:
+    def __init__(self, session: StudioWindow) -> None:
         self._session = session
         self._slots: dict[str, Clip | None] = {"A": None, "B": None}
         gui = session.client.gui

@@ -11,7 +11,7 @@ from motionrt.studio.jobs import Told
 
 if TYPE_CHECKING:
     from motionrt.retrieval import Hit
-    from motionrt.studio.studio_session import StudioSession
+    from motionrt.studio.windows import StudioWindow
 
 HITS, PLAYED = 10, 3
 EXAMPLE = "a person walks in a circle"
@@ -25,7 +25,7 @@ class SearchPanel:
         session: whose.
     """
 
-    def __init__(self, session: StudioSession) -> None:
+    def __init__(self, session: StudioWindow) -> None:
         self._session = session
         gui = session.client.gui
         with gui.add_form(None) as form:

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 from motionrt.errors import InvalidInputError
 from motionrt.studio.layout import AS_RECORDED, frame_all, offsets
-from motionrt.studio.session import ASPECT, FIELD_OF_VIEW, PANEL_PIXELS, Session, Show, scenery_boxes
+from motionrt.studio.session import ASPECT, FIELD_OF_VIEW, PANEL_PIXELS, Session, scenery_boxes
+from motionrt.studio.windows import Show
 
 if TYPE_CHECKING:
     from motionrt.studio.workshop import Workshop

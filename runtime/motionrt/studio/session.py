@@ -6,7 +6,6 @@ import logging
 import threading
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,13 +13,13 @@ import numpy as np
 from motionrt.errors import MotionRTError
 from motionrt.studio.clips import Clip
 from motionrt.studio.clock import Clock
-from motionrt.studio.draft import Draft
 from motionrt.studio.layout import frame_all
 from motionrt.studio.markers import Markers, draw_scenery
 from motionrt.studio.scenery import Scenery
 from motionrt.studio.stage import Stage
 from motionrt.studio.transport import Transport
 from motionrt.studio.view_panel import ViewPanel
+from motionrt.studio.windows import Show
 
 if TYPE_CHECKING:
     from motionrt.motion.skeleton import FloatArray
@@ -30,28 +29,6 @@ FIELD_OF_VIEW = 0.72  # radians; viser's own 75 degrees bend people at the edges
 ASPECT, PANEL_PIXELS = 1.6, 340  # of a usual window; how wide the panel is
 FOLLOW_SHARE, FOLLOW_LEAST = 0.15, 0.01  # how much of its lag the camera makes up in a frame; metres
 log = logging.getLogger(__name__)
-
-
-@dataclass
-class Show:
-    """What every window of a page begins with.
-
-    Attributes:
-        clips: on the stage.
-        problems: one line about every file that could not be read.
-        scenery: drawn around them.
-        draft: keypoints and paths that are drawn.
-        path: ``(N, 2)`` x and z of a path on the ground.
-    """
-
-    clips: Sequence[Clip] = ()
-    problems: Sequence[str] = ()
-    scenery: Scenery | None = None
-    draft: Draft | None = None
-    path: FloatArray | None = None
-    layout: str | None = None
-    playing: bool = True
-    extra: dict[str, Any] = field(default_factory=dict)
 
 
 def scenery_boxes(scenery: Scenery | None) -> list[FloatArray]:

@@ -11,7 +11,7 @@ from motionrt.studio.clips import load_clips
 from motionrt.studio.draft import Draft
 from motionrt.studio.layout import AS_RECORDED, LAYOUTS, SIDE_BY_SIDE
 from motionrt.studio.scenery import open_scenery
-from motionrt.studio.session import Show
+from motionrt.studio.windows import Show
 
 
 def show_of(

@@ -15,7 +15,8 @@ from motionrt.studio.jobs import Cancelled, Jobs, Work
 from motionrt.studio.layout import AS_RECORDED, SIDE_BY_SIDE
 from motionrt.studio.make_panel import MakePanel
 from motionrt.studio.search_panel import SearchPanel
-from motionrt.studio.session import Session, Show
+from motionrt.studio.session import Session
+from motionrt.studio.windows import Show
 from motionrt.studio.workshop import Workshop
 
 T = TypeVar("T")
@@ -118,6 +119,11 @@ class StudioSession(Session):
         self._working.visible = True
         if not self.jobs.start(work, finished, self._failed, self._ended):
             raise InvalidInputError("something else is being done; wait for it, or cancel it")
+
+    def hand_over(self, name: str, content: bytes) -> None:
+        """A file for the browser to save."""
+        self.client.send_file_download(name, content, save_immediately=True)
+        self.say("Downloaded", name)
 
     def close(self) -> None:
         """The window is gone, and what it asked for is not wanted any more."""

@@ -7,7 +7,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from motionrt.studio.session import Session
+    from motionrt.studio.windows import Window
 
 STEPS = ("|◀", "◀ 1", "1 ▶", "▶|")
 SPEEDS = {"¼×": 0.25, "½×": 0.5, "1×": 1.0, "2×": 2.0, "4×": 4.0}
@@ -21,7 +21,7 @@ class Transport:
         session: whose.
     """
 
-    def __init__(self, session: Session) -> None:
+    def __init__(self, session: Window) -> None:
         self._session, self._shown_at = session, 0.0
         gui, guarded = session.client.gui, session.guarded
         with gui.add_folder("Playback"):

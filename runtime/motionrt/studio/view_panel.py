@@ -9,8 +9,8 @@ from motionrt.studio.layout import LAYOUTS
 
 if TYPE_CHECKING:
     from motionrt.studio.clips import Clip
-    from motionrt.studio.session import Session
     from motionrt.studio.stage import Actor
+    from motionrt.studio.windows import Window
 
 
 class ViewPanel:
@@ -21,7 +21,7 @@ class ViewPanel:
         selecting: whether one of several clips can be selected.
     """
 
-    def __init__(self, session: Session, *, selecting: bool = False) -> None:
+    def __init__(self, session: Window, *, selecting: bool = False) -> None:
         self._session, self.selecting = session, selecting
         gui, look = session.client.gui, session.stage.look
         self._clips: Any = gui.add_folder("Clips")

@@ -40,7 +40,7 @@ def test_bytes_that_are_no_glb(tmp_path: Path) -> None:
     cases = {
         b"": "not a GLB file",
         b"HIERARCHY\nROOT hips": "not a GLB file",
-        b'{"asset": {"version": "2.0"}}': r"no nodes",
+        b'{"asset": {"version": "2.0"}}': "no nodes",
         struct.pack("<III", 0x46546C67, 1, 12): "GLB version 1",
         struct.pack("<III", 0x46546C67, 2, 12): "ends inside the header",
         struct.pack("<IIIII", 0x46546C67, 2, 20, 0, 0x004E4942): "first chunk is not JSON",
@@ -110,7 +110,11 @@ def _roots(document: dict[str, Any]) -> None:
 
 def _sparse(document: dict[str, Any]) -> None:
     accessor = document["accessors"][document["animations"][0]["samplers"][0]["output"]]
-    accessor["sparse"] = {"count": 10**9, "indices": {"bufferView": 0, "componentType": 5123}, "values": {"bufferView": 0}}
+    accessor["sparse"] = {
+        "count": 10**9,
+        "indices": {"bufferView": 0, "componentType": 5123},
+        "values": {"bufferView": 0},
+    }
 
 
 def _meshopt(document: dict[str, Any]) -> None:

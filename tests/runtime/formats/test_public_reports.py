@@ -341,3 +341,17 @@ def test_one_hand_is_no_person(text: str, tmp_path: Path) -> None:
     lines += ["}", "MOTION", "Frames: 5", "Frame Time: 0.0333333", *[" ".join(["0"] * 48)] * 5]
     with pytest.raises(RigError):
         load_motion(saved(tmp_path, "\n".join(lines), "hand.bvh"))
+
+
+@pytest.mark.parametrize("suffix", [".gltf", ".vrma"])
+def test_what_is_written_as_gltf_text_or_vrm_animation_comes_back(walk: Motion, tmp_path: Path, suffix: str) -> None:
+    path = walk.save(tmp_path / f"walk{suffix}")
+    assert_same(load_motion(path), walk, 0.01)
+    if suffix == ".vrma":
+        document, _ = read_container(path)
+        bones = document["extensions"]["VRMC_vrm_animation"]["humanoid"]["humanBones"]
+        names = {bone: document["nodes"][entry["node"]]["name"] for bone, entry in bones.items()}
+        assert names["hips"] == "pelvis"
+        assert names["leftUpperLeg"] == "left_hip"
+        assert names["rightHand"] == "right_wrist"
+        assert len(names) == 22

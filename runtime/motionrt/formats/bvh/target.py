@@ -1,28 +1,24 @@
-"""Another motion in a user's BVH file: his hierarchy to the letter, his channels, new numbers."""
+"""Another motion in a BVH file that exists: its hierarchy to the letter, its channels, new numbers."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from motionrt.errors import FormatError, InvalidInputError
-from motionrt.formats.atomic import write_bytes
+from motionrt.errors import FormatError
 from motionrt.formats.bvh.euler import euler_degrees
 from motionrt.formats.bvh.hierarchy import BvhJoint
 from motionrt.formats.bvh.read import BvhText
 from motionrt.formats.bvh.rig import joints_with_differences
 from motionrt.formats.bvh.write import value_rows
-from motionrt.formats.gltf.write import write_rig_glb
-from motionrt.formats.units import to_metres
 from motionrt.motion.skeleton import FloatArray
 from motionrt.rigs.clip import RigClip
-from motionrt.rigs.target import RigMotion
 
 
 @dataclass(frozen=True, eq=False)
-class BvhFile:
+class BvhTarget:
     """The BVH file of a rig.
 
     Attributes:
@@ -35,20 +31,8 @@ class BvhFile:
     text: BvhText
     clip: RigClip
 
-    def save(self, motion: RigMotion, path: Path, *, units: str | None, t_pose: bool) -> Path:
-        """See :meth:`motionrt.rigs.target.RigMotion.save`."""
-        suffix = path.suffix.lower()
-        if suffix not in {".bvh", ".glb"}:
-            raise InvalidInputError(f"{path}: a motion of a rig is written as .bvh or .glb")
-        if units is not None:
-            raise InvalidInputError(f"units do not apply: a .bvh keeps those of {self.path.name}, a .glb is in metres")
-        if suffix == ".glb":
-            if t_pose:
-                raise InvalidInputError("t_pose is for .bvh; a .glb knows its rest pose")
-            return write_rig_glb(to_metres(motion), path)
-        return self._write(with_rest_frame(motion.clip) if t_pose else motion.clip, path)
-
-    def _write(self, clip: RigClip, path: Path) -> Path:
+    def with_animation(self, clip: RigClip) -> bytes:
+        """The file with the frames of ``clip`` in the place of its own."""
         offsets = np.array([joint.offset or (0.0, 0.0, 0.0) for joint in self.text.joints])
         relative = set(joints_with_differences(self.text.joints, offsets, self._declared(offsets)))
         columns = []
@@ -58,8 +42,7 @@ class BvhFile:
                 columns.append(_channels(joint, clip.rotations[:, j], places, self.path))
         rows = value_rows(np.concatenate(columns, axis=1))
         head = [self.text.hierarchy.rstrip("\n"), "MOTION", f"Frames: {clip.frames}"]
-        content = "\n".join([*head, f"Frame Time: {1 / clip.fps:.10f}", *rows, ""]).encode("utf-8")
-        return write_bytes(path, content)
+        return "\n".join([*head, f"Frame Time: {1 / clip.fps:.10f}", *rows, ""]).encode("utf-8")
 
     def _declared(self, offsets: np.ndarray) -> np.ndarray:
         """Translations ``(F, J, 3)`` as the file's own numbers give them."""
@@ -69,15 +52,6 @@ class BvhFile:
                 out[:, j, axis] = self.text.values[:, column + i]
             column += len(joint.channels)
         return out
-
-
-def with_rest_frame(clip: RigClip) -> RigClip:
-    """``clip`` with its rest pose as a first frame, standing where the motion starts."""
-    translations = np.concatenate([clip.offsets[None], clip.translations])
-    away = np.abs(clip.translations[0] - clip.offsets).max(axis=-1) > 1e-6
-    translations[0, away] = clip.translations[0, away]
-    rotations = np.concatenate([clip.rest_rotations()[None], clip.rotations])
-    return replace(clip, rotations=rotations, translations=translations)
 
 
 def _channels(joint: BvhJoint, rotations: FloatArray, places: np.ndarray, path: Path) -> np.ndarray:

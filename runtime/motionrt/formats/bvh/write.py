@@ -17,9 +17,6 @@ from motionrt.motion.kinematics import fk
 from motionrt.motion.motion import Motion
 from motionrt.rigs.clip import RigClip
 
-UNITS = {"m": 1.0, "cm": 100.0, "mm": 1000.0, "in": 1 / 0.0254}
-"""Names of units and how many of them are a metre."""
-
 _POSITIONS = "Xposition Yposition Zposition"
 _MOVES = 1e-5  # share of the rig's largest offset
 

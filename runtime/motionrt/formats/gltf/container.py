@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import json
 import struct
 from pathlib import Path
@@ -11,6 +12,8 @@ from motionrt.errors import FormatError
 from motionrt.formats.text import require_file
 
 Json = dict[str, Any]
+
+GLTF_SUFFIXES = (".glb", ".gltf", ".vrm", ".vrma")
 
 JSON_LIMIT = 64 * 2**20
 """Bytes of JSON that are parsed at most; a character with hundreds of animations has a few megabytes."""
@@ -41,6 +44,14 @@ def pack_container(document: Json, binary: bytes) -> bytes:
     text = json.dumps(document, ensure_ascii=False, allow_nan=False, separators=(",", ":")).encode("utf-8")
     chunks = _chunk(_JSON, text, b" ") + (_chunk(_BIN, binary, b"\0") if binary else b"")
     return struct.pack("<III", _MAGIC, 2, 12 + len(chunks)) + chunks
+
+
+def pack_text(document: Json, binary: bytes) -> bytes:
+    """The bytes of a glTF text file with its one buffer inside."""
+    uri = "data:application/octet-stream;base64," + base64.b64encode(binary).decode("ascii")
+    first = {**document["buffers"][0], "uri": uri, "byteLength": len(binary)}
+    whole = {**document, "buffers": [first, *document["buffers"][1:]]}
+    return json.dumps(whole, ensure_ascii=False, allow_nan=False, separators=(",", ":")).encode("utf-8")
 
 
 def _chunk(kind: int, content: bytes, filler: bytes) -> bytes:

@@ -34,6 +34,28 @@ def humanoid_nodes(document: Json) -> dict[str, int]:
     return {}
 
 
+def add_humanoid(document: Json) -> None:
+    """Say which bone of a VRM each node named as in ``smpl24`` is  [VRMC_vrm_animation 1.0]."""
+    named = {str(node.get("name")): i for i, node in enumerate(document["nodes"])}
+    words = {
+        **{role: bone for bone, role in _ROLES.items()},
+        "spine1": "spine",
+        "spine2": "chest",
+        "spine3": "upperChest",
+    }
+    del words["hand"]
+    bones = {}
+    for role, node in named.items():
+        side, _, part = role.partition("_")
+        if role in words:
+            bones[words[role]] = {"node": node}
+        elif side in {"left", "right"} and part in words:
+            bones[side + words[part]] = {"node": node}
+    extension = {"specVersion": "1.0", "humanoid": {"humanBones": bones}}
+    document.setdefault("extensions", {})["VRMC_vrm_animation"] = extension
+    document["extensionsUsed"] = [*document.get("extensionsUsed", []), "VRMC_vrm_animation"]
+
+
 def _bones(entries: Any) -> dict[str, int]:
     """Bone name -> node, from the object of VRM 1.0 or the list of VRM 0.x."""
     if isinstance(entries, list):

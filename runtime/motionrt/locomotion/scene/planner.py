@@ -11,9 +11,9 @@ import numpy as np
 import numpy.typing as npt
 
 from motionrt.errors import PathError
+from motionrt.locomotion.corners import round_corners
 from motionrt.locomotion.path import Path
 from motionrt.locomotion.scene.blocking import unreachable
-from motionrt.locomotion.scene.corners import round_corners
 from motionrt.locomotion.scene.ends import End, find_end, spoken
 from motionrt.locomotion.scene.grid import Grid, Points
 from motionrt.locomotion.scene.penalty import Penalty

@@ -1,4 +1,4 @@
-"""The verbs of ``Runtime`` that make motion: generate, compose, layers, body_parts."""
+"""The service that makes motion: generate, compose, layers, body_parts."""
 
 from __future__ import annotations
 
@@ -6,10 +6,10 @@ from collections.abc import Iterable, Sequence
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, overload
 
+from motionrt.services.service import Service
 from motionrt.synthesis.sampling import DEFAULT_SAMPLER, GUIDANCE, SECONDS, STEPS
 
 if TYPE_CHECKING:
-    from motionrt.models import TextMotionModel
     from motionrt.motion import Motion
     from motionrt.synthesis.composing.alignment import Align
     from motionrt.synthesis.composing.composition import Keep
@@ -19,22 +19,17 @@ if TYPE_CHECKING:
     from motionrt.synthesis.parts import Complete, Endpoint, Labeller
 
 
-class Making:
-    """Say it, and combine it; see :class:`motionrt.runtime.Runtime`."""
-
-    _variant: str | None
-
-    if TYPE_CHECKING:
-
-        @cached_property
-        def model(self) -> TextMotionModel: ...
+class Synthesis(Service):
+    """Text to motion, composition of motions, and the body parts of action texts; its arguments are those of
+    :class:`motionrt.Runtime`.
+    """
 
     @cached_property
     def generator(self) -> Generator:
-        """Text to motion; its models open when they are first needed, and share the sentence encoder of retrieval."""
+        """Text to motion; its models open when they are first needed."""
         from motionrt.synthesis.generating import Generator
 
-        return Generator(self.model.sessions, self._variant, sentences=self.model.sentences)
+        return Generator(self.sessions, self._variant, sentences=self.sentences)
 
     @overload  # a str is a sequence of str, too, so the first two overlap the others
     def generate(  # type: ignore[overload-overlap]

@@ -1,4 +1,4 @@
-"""The verbs of ``Runtime`` that move a character: plan, walk, stream, crowd, pose, transition, perform, play."""
+"""The service that moves characters: plan, walk, stream, crowd, pose, transition, perform, play."""
 
 from __future__ import annotations
 
@@ -9,10 +9,9 @@ from pathlib import Path as FilePath
 from typing import TYPE_CHECKING
 
 from motionrt.locomotion.crowd import SPEED
+from motionrt.services.service import Service
 
 if TYPE_CHECKING:
-    from onnxruntime import SessionOptions
-
     from motionrt.locomotion.actions import Action
     from motionrt.locomotion.arguments import PathLikes, SceneLike, StartLike
     from motionrt.locomotion.character_models import CharacterModels
@@ -28,22 +27,15 @@ if TYPE_CHECKING:
     from motionrt.motion import Motion
 
 
-class Moving:
-    """Walk anywhere, act there; see :class:`motionrt.runtime.Runtime`."""
-
-    _models: str | FilePath | None
-    _variant: str | None
-    _threads: int | None
-    _session_options: SessionOptions | None
+class Locomotion(Service):
+    """Walk anywhere, act there; its arguments are those of :class:`motionrt.Runtime`."""
 
     @cached_property
     def character_models(self) -> CharacterModels:
         """WalkNet, TransNet and the pose prior; each opens when it is first needed."""
         from motionrt.locomotion.character_models import OnnxCharacterModels
-        from motionrt.models import Sessions
 
-        sessions = Sessions(self._models, threads=self._threads, session_options=self._session_options)
-        return OnnxCharacterModels(sessions, self._variant)
+        return OnnxCharacterModels(self.sessions, self._variant)
 
     @property
     def players(self) -> CharacterModels:

@@ -1,0 +1,61 @@
+"""What all services share: which models, opened how, once for all that are composed."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from motionrt.models.engine import Providers, checked_providers
+from motionrt.models.sessions import Sessions
+
+if TYPE_CHECKING:
+    from onnxruntime import SessionOptions
+
+    from motionrt.models.text import SentenceEncoder
+
+
+class Service:
+    """Models that open when they are first needed.
+
+    Args:
+        models: the manifest or the folder of the models, by default those that came with motionrt.
+        threads: threads of every model, by default at most 2 of those that the process may use.
+        session_options: options for every onnxruntime session, instead of ``threads``.
+        variant: which files of the models, as in ``fp32``, by default those that the manifest prefers; a model without
+            such a file gives its preferred one (the pose prior has no ``int8``).
+        providers: onnxruntime's execution providers of every session, the preferred one first, as in
+            ``["CUDAExecutionProvider", "CPUExecutionProvider"]``; by default the CPU.
+
+    Raises:
+        InvalidInputError: ``providers`` is no list of names, or of pairs of a name and options.
+    """
+
+    def __init__(
+        self,
+        models: str | Path | None = None,
+        *,
+        threads: int | None = None,
+        session_options: SessionOptions | None = None,
+        variant: str | None = None,
+        providers: Providers | None = None,
+    ) -> None:
+        self._models = models
+        self._threads = threads
+        self._session_options = session_options
+        self._variant = variant
+        self._providers = checked_providers(providers)
+
+    @cached_property
+    def sessions(self) -> Sessions:
+        """All models of the manifest; each opens when it is first run."""
+        return Sessions(
+            self._models, threads=self._threads, session_options=self._session_options, providers=self._providers
+        )
+
+    @cached_property
+    def sentences(self) -> SentenceEncoder:
+        """The sentence encoder, which search and synthesis share."""
+        from motionrt.models.text import SentenceEncoder
+
+        return SentenceEncoder(self.sessions, self._variant)

@@ -1,0 +1,97 @@
+"""What a window offers to the panels in it, and what it begins with."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from typing import Any, Protocol, TypeVar
+
+from motionrt.motion import Motion
+from motionrt.motion.skeleton import FloatArray
+from motionrt.studio.clips import Clip
+from motionrt.studio.clock import Clock
+from motionrt.studio.draft import Draft
+from motionrt.studio.jobs import Work
+from motionrt.studio.markers import Markers
+from motionrt.studio.scenery import Scenery
+from motionrt.studio.stage import Stage
+from motionrt.studio.workshop import Workshop
+
+T = TypeVar("T")
+
+
+@dataclass
+class Show:
+    """What every window of a page begins with.
+
+    Attributes:
+        clips: on the stage.
+        problems: one line about every file that could not be read.
+        scenery: drawn around them.
+        draft: keypoints and paths that are drawn.
+        path: ``(N, 2)`` x and z of a path on the ground.
+    """
+
+    clips: Sequence[Clip] = ()
+    problems: Sequence[str] = ()
+    scenery: Scenery | None = None
+    draft: Draft | None = None
+    path: FloatArray | None = None
+    layout: str | None = None
+    playing: bool = True
+    extra: dict[str, Any] = field(default_factory=dict)
+
+
+class Window(Protocol):
+    """What the panels of playback and view need of the window that they are in."""
+
+    client: Any
+    clock: Clock
+    stage: Stage
+    follow: bool
+
+    def guarded(self, act: Callable[[Any], None]) -> Callable[[Any], None]:
+        """A callback of the page: one at a time, and whatever goes wrong is told there and ends nothing."""
+
+    def chosen(self) -> None:
+        """Another clip is selected."""
+
+    def redraw(self) -> None:
+        """Draw everything as the clock says, now."""
+
+    def rearrange(self) -> None:
+        """After the look of the stage changed."""
+
+    def frame_all(self, *more: FloatArray) -> None:
+        """Move the camera to where everything is in sight, boxes ``(2, 3)`` that are given as well."""
+
+
+class StudioWindow(Window, Protocol):
+    """What the panels of the studio need, too."""
+
+    workshop: Workshop
+    given: Show
+    markers: Markers
+    scenery: Scenery | None
+
+    @property
+    def selected(self) -> Clip:
+        """The clip that buttons mean."""
+
+    def work(self, title: str, work: Work[T], done: Callable[[T, float], None]) -> None:
+        """Do something in the background, and tell the page how it goes."""
+
+    def present(self, motions: Sequence[tuple[str, Motion, str]], *, keep: bool = False, world: bool = False) -> None:
+        """Play new motions (name, motion, note) from the start."""
+
+    def set_scenery(self, scenery: Scenery | None) -> None:
+        """Draw another scene."""
+
+    def reveal_scene(self, *, shown: bool) -> None:
+        """Show or hide the scene and what is drawn into it."""
+
+    def say(self, title: str, words: str = "") -> None:
+        """A note on the page."""
+
+    def hand_over(self, name: str, content: bytes) -> None:
+        """A file for the browser to save."""
