@@ -13,6 +13,10 @@ PAGES: dict[str, Page] = {
         (
             "motionrt:Motion", "motionrt:Skeleton", "motionrt:SMPL24", "motionrt:PARTS", "motionrt:load_motion",
             "motionrt:load_rig", "motionrt:load_target", "motionrt:save_motion", "motionrt.rigs.clip:RigClip",
+            "motionrt.formats:motion_file_info", "motionrt.formats:MotionFileInfo", "motionrt.formats:find_motions",
+            "motionrt.formats:animations_of", "motionrt.rigs.certify:certify", "motionrt.rigs.certify:Certificate",
+            "motionrt.rigs.certify:ProbeResult", "motionrt.rigs.mapping:draft_mapping",
+            "motionrt.rigs.mapping:load_mapping", "motionrt.rigs.mapping:save_mapping",
         ),
     ),
     "search": (
@@ -21,7 +25,12 @@ PAGES: dict[str, Page] = {
         (
             "motionrt:Gallery", "motionrt:Hit", "motionrt.retrieval:Description", "motionrt.retrieval:Moments",
             "motionrt.retrieval:Moment", "motionrt.retrieval:BuildReport", "motionrt.retrieval:build_gallery",
-            "motionrt.retrieval:update_gallery",
+            "motionrt.retrieval:update_gallery", "motionrt.retrieval:Hits", "motionrt.retrieval:Filter",
+            "motionrt.retrieval:Weights", "motionrt.retrieval:Caption", "motionrt.retrieval:find",
+            "motionrt.retrieval:Search", "motionrt.retrieval:similar", "motionrt.retrieval:duplicates",
+            "motionrt.retrieval:Duplicates", "motionrt.motion.attributes:measure",
+            "motionrt.motion.attributes:Attributes", "motionrt.text:parse_query", "motionrt.text:TextAttributes",
+            "motionrt.text:agreement", "motionrt.text:Agreement",
         ),
     ),
     "making": (

@@ -20,7 +20,10 @@ from motionrt.services.synthesis import Synthesis
 if TYPE_CHECKING:  # embedding a text, the shortest way to an answer, waits for none of these
     from onnxruntime import SessionOptions
 
-    from motionrt.retrieval import BuildReport, Description, EmbeddedCaptions, Gallery, Hit, Moments, Progress
+    from motionrt.retrieval import BuildReport, Description, EmbeddedCaptions, Gallery, Moments, Progress
+    from motionrt.retrieval.filters import Filter
+    from motionrt.retrieval.finding import Hits
+    from motionrt.retrieval.ranking import Weights
 
     MotionLike = Motion | str | Path
     GalleryLike = Gallery | str | Path
@@ -71,7 +74,10 @@ class Runtime(Locomotion, Synthesis):
         *,
         per_clip: bool = ...,
         approximate: bool = ...,
-    ) -> list[Hit]: ...
+        weights: Weights | None = ...,
+        filter: Filter | None = ...,
+        anyway: bool = ...,
+    ) -> Hits: ...
 
     @overload
     def retrieve(
@@ -82,7 +88,10 @@ class Runtime(Locomotion, Synthesis):
         *,
         per_clip: bool = ...,
         approximate: bool = ...,
-    ) -> list[list[Hit]]: ...
+        weights: Weights | None = ...,
+        filter: Filter | None = ...,
+        anyway: bool = ...,
+    ) -> list[Hits]: ...
 
     def retrieve(
         self,
@@ -92,8 +101,11 @@ class Runtime(Locomotion, Synthesis):
         *,
         per_clip: bool = True,
         approximate: bool = False,
-    ) -> list[Hit] | list[list[Hit]]:
-        """The motions of a gallery that fit a text best.
+        weights: Weights | None = None,
+        filter: Filter | None = None,  # noqa: A002 - the word that users look for
+        anyway: bool = False,
+    ) -> Hits | list[Hits]:
+        """The motions of a gallery that fit a text best: by embedding, measured attributes and the library's words.
 
         Args:
             text: a sentence, or a list of them, which gives a list of answers.
@@ -102,19 +114,41 @@ class Runtime(Locomotion, Synthesis):
             per_clip: only the best span of every clip; otherwise every 10 s window is a hit of its own.
             approximate: search galleries of 50,000 windows and more by a graph of neighbours, which may miss a hit
                 (extra ``ann``); see :meth:`Gallery.search`.
+            weights: what each of the three counts; ``motionrt.retrieval.EMBEDDING_ONLY`` is the embedding alone.
+            filter: which motions may be hits, as in ``Filter(where="turn > 60 and speed < 1.5", folder="walks")``.
+            anyway: search even for a text of which no word is known; otherwise that gives no hits and a ``notice``.
 
         Raises:
-            InvalidInputError: an empty text, or a bad ``k``.
+            InvalidInputError: an empty text, a bad ``k``, or a condition that cannot be read.
             GalleryNotFoundError, GalleryError: no gallery there, damaged, or made by another model.
         """
+        from motionrt.retrieval.filters import EVERYTHING
+        from motionrt.retrieval.finding import Search, find
+        from motionrt.retrieval.ranking import DEFAULT
+
         self.model.prepare()
         opened = self.gallery(gallery)
         opened.check_model(self.model.fingerprint, self.model.name)
-        hits = [
-            opened.search(query, k, per_clip=per_clip, approximate=approximate)
-            for query in self.model.embed_text(_texts(text))
-        ]
+        search = Search(k, per_clip, approximate, weights or DEFAULT, filter or EVERYTHING, anyway)
+        texts = _texts(text)
+        embedded = zip(texts, self.model.embed_text(texts), strict=True)
+        hits = [find(opened, one, query, search) for one, query in embedded]
         return hits[0] if isinstance(text, str) else hits
+
+    def similar(self, motion: MotionLike, k: int = 10, gallery: GalleryLike | None = None) -> Hits:
+        """The clips of a gallery most like a motion, a motion file, or the gallery's own clip of that id (left out).
+
+        Raises:
+            InvalidInputError: a bad ``k``.
+            MotionFileNotFoundError, FormatError, RigError: a file that cannot be read.
+            GalleryNotFoundError, GalleryError: no gallery there, damaged, or made by another model.
+        """
+        from motionrt.retrieval.likeness import similar
+
+        opened = self.gallery(gallery)
+        opened.check_model(self.model.fingerprint, self.model.name)
+        own = next((clip.id for clip in opened.clips if clip.id == motion or opened.path(clip) == motion), None)
+        return similar(opened, self.embed_motion(opened.motion(own) if own else motion), k, without=own)
 
     def gallery(self, gallery: GalleryLike | None = None) -> Gallery:
         """Open a gallery by its folder or the folder that was indexed; ``None`` is the starter gallery.

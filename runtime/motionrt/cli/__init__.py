@@ -27,6 +27,7 @@ from motionrt.cli import (
     retarget,
     retrieve,
     rig,
+    similar,
     studio,
     view,
     walk,
@@ -38,6 +39,7 @@ from motionrt.errors import MotionRTError
 ERROR, INTERRUPTED, BROKEN_PIPE = 1, 130, 141
 _COMMANDS = (
     retrieve,
+    similar,
     galleries,
     describe,
     moments,

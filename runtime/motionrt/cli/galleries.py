@@ -18,7 +18,12 @@ BUILD = """index a folder of motion files (.bvh, .amc, .npz, .glb), with all fol
 Files that cannot be read are listed with the reason, and the exit code is then 3."""
 UPDATE = """bring a gallery up to date with its folder
 Only new and changed files are read, and files that are gone are dropped."""
+DUPLICATES = """list the clips of a gallery that show the same motion: equal files, or as long and alike
+Mirror images are not the same."""
 INFO = """show what a gallery holds, and check its files for damage"""
+
+
+NO_ATTRIBUTES = "none yet: motionrt gallery update"
 
 
 def add(commands: Any) -> None:
@@ -37,7 +42,10 @@ def add(commands: Any) -> None:
     info.add_argument("gallery", type=Path, help="a gallery, or the folder that was indexed")
     for parser in (build, update):
         add_models(parser, threads=False)
-    for parser in (build, update, info):
+    same = command(parts, "duplicates", run_duplicates, DUPLICATES)
+    same.add_argument("gallery", type=Path, help="a gallery, or the folder that was indexed")
+    same.add_argument("--cosine", type=float, default=0.985, metavar="C", help="how alike, at most 1 (default: 0.985)")
+    for parser in (build, update, info, same):
         add_json(parser)
 
 
@@ -76,9 +84,26 @@ def run_info(arguments: argparse.Namespace) -> int:
     print(f"source   {facts['source'] or 'none (motions are stored in the gallery)'}")
     print(f"clips    {facts['clips']}, {facts['hours']:.2f} h, {facts['windows']} windows of 10 s")
     print(f"model    {model.name} ({model.fingerprint[:12]})")
+    print(f"words    {facts['captions']} captions; attributes: {'yes' if facts['attributes'] else NO_ATTRIBUTES}")
     print(f"skipped  {len(gallery.skipped)}")
     for skipped in gallery.skipped:
         print(f"  {skipped.path}: {skipped.reason}")
+    return 0
+
+
+def run_duplicates(arguments: argparse.Namespace) -> int:
+    """``gallery duplicates``."""
+    from motionrt.retrieval import Gallery, duplicates
+
+    groups = duplicates(Gallery.open(arguments.gallery), arguments.cosine)
+    if arguments.json:
+        print_json([{"ids": list(g.ids), "identical": g.identical, "cosine": round(g.cosine, 6)} for g in groups])
+        return 0
+    for group in groups:
+        print("equal files" if group.identical else f"same motion ({group.cosine:.3f})")
+        for clip in group.ids:
+            print(f"  {clip}")
+    print(f"{len(groups)} {'group' if len(groups) == 1 else 'groups'} of duplicates")
     return 0
 
 
@@ -91,6 +116,8 @@ def describe(gallery: Gallery) -> dict[str, Any]:
         "windows": len(gallery.windows),
         "hours": round(sum(clip.duration_s for clip in gallery.clips) / 3600, 4),
         "model": {"name": gallery.model.name, "fingerprint": gallery.model.fingerprint},
+        "captions": len(gallery.captions),
+        "attributes": gallery.attributes is not None,
         "skipped": [{"path": skipped.path, "reason": skipped.reason} for skipped in gallery.skipped],
     }
 

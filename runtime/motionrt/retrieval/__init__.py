@@ -11,9 +11,13 @@ if TYPE_CHECKING:
     from motionrt.retrieval.build import build_gallery, update_gallery
     from motionrt.retrieval.captions import EmbeddedCaptions, checked_captions, read_captions
     from motionrt.retrieval.describing import Description, describe
+    from motionrt.retrieval.filters import Filter
+    from motionrt.retrieval.finding import Hits, Search, find
     from motionrt.retrieval.gallery import Gallery
+    from motionrt.retrieval.likeness import Duplicates, duplicates, similar
     from motionrt.retrieval.moments import WINDOW_LENGTHS, Moment, Moments, find_moments
-    from motionrt.retrieval.records import Clip, Skipped
+    from motionrt.retrieval.ranking import EMBEDDING_ONLY, Weights
+    from motionrt.retrieval.records import Caption, Clip, Skipped
     from motionrt.retrieval.search import ExactIndex, Hit, VectorIndex
     from motionrt.retrieval.store import GALLERY_FILE, locate
     from motionrt.retrieval.windows import embed_whole, motion_features, window_spans
@@ -23,37 +27,51 @@ _HOMES = {
     "build": ("build_gallery", "update_gallery"),
     "captions": ("EmbeddedCaptions", "checked_captions", "read_captions"),
     "describing": ("Description", "describe"),
+    "filters": ("Filter",),
+    "finding": ("Hits", "Search", "find"),
     "gallery": ("Gallery",),
+    "likeness": ("Duplicates", "duplicates", "similar"),
     "moments": ("WINDOW_LENGTHS", "Moment", "Moments", "find_moments"),
-    "records": ("Clip", "Skipped"),
+    "ranking": ("EMBEDDING_ONLY", "Weights"),
+    "records": ("Caption", "Clip", "Skipped"),
     "search": ("ExactIndex", "Hit", "VectorIndex"),
     "store": ("GALLERY_FILE", "locate"),
     "windows": ("embed_whole", "motion_features", "window_spans"),
 }
 
 __all__ = [
+    "EMBEDDING_ONLY",
     "GALLERY_FILE",
     "WINDOW_LENGTHS",
     "BuildReport",
+    "Caption",
     "Clip",
     "Description",
+    "Duplicates",
     "EmbeddedCaptions",
     "ExactIndex",
+    "Filter",
     "Gallery",
     "Hit",
+    "Hits",
     "Moment",
     "Moments",
     "Progress",
+    "Search",
     "Skipped",
     "VectorIndex",
+    "Weights",
     "build_gallery",
     "checked_captions",
     "describe",
+    "duplicates",
     "embed_whole",
+    "find",
     "find_moments",
     "locate",
     "motion_features",
     "read_captions",
+    "similar",
     "update_gallery",
     "window_spans",
 ]

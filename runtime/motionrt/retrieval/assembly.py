@@ -13,6 +13,7 @@ from motionrt.retrieval import layout
 from motionrt.retrieval.gallery import Gallery
 from motionrt.retrieval.indexing import FileJob, IndexedClip, OpenModel, Outcome, SameContent, index_files
 from motionrt.retrieval.records import ModelStamp, Skipped, window_table
+from motionrt.retrieval.sidecars import read_sidecars
 from motionrt.retrieval.windows import MotionEmbedder
 
 Progress = Callable[[int, int, str], None]
@@ -68,19 +69,21 @@ def run(plan: Plan, workers: Workers) -> BuildReport:
             f"the first: {skipped[0].path}: {skipped[0].reason}"
         )
     stamp = ModelStamp(workers.model.name, workers.model.fingerprint)
-    gallery = _assembled(plan, clips, skipped, stamp)
+    captions, closed = read_sidecars(plan.source, [item.clip.id for item in clips])
+    gallery = replace(_assembled(plan, clips, [*skipped, *closed], stamp), captions=captions)
     layout.save(gallery, plan.target)
     return _report(plan, Gallery.open(plan.target), outcomes)
 
 
 def _job(plan: Plan, name: str) -> FileJob:
     known = plan.known.get(name)
-    return FileJob(plan.source, name, plan.mapping, known.clip.sha256 if known else None)
+    complete = known is not None and known.attributes is not None
+    return FileJob(plan.source, name, plan.mapping, known.clip.sha256 if known and complete else None)
 
 
 def _same_on_disk(plan: Plan, name: str) -> bool:
     known = plan.known.get(name)
-    if known is None:
+    if known is None or known.attributes is None:  # an old gallery has no attributes: its files are read again
         return False
     try:
         stat = (plan.source / name).stat()
@@ -121,6 +124,7 @@ def _assembled(plan: Plan, clips: list[IndexedClip], skipped: list[Skipped], sta
         source=plan.source,
         skipped=tuple(skipped),
         mapping=plan.mapping,
+        attributes=np.concatenate([item.attributes for item in clips if item.attributes is not None]),
     )
 
 

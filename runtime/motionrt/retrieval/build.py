@@ -79,7 +79,8 @@ def _indexed(gallery: Gallery) -> dict[str, IndexedClip]:
     for number, clip in enumerate(gallery.clips):
         part = slice(int(bounds[number]), int(bounds[number + 1]))
         spans = [(float(row["start_s"]), float(row["end_s"])) for row in gallery.windows[part]]
-        clips[clip.id] = IndexedClip(clip, spans, gallery.embeddings[part])
+        attributes = None if gallery.attributes is None else gallery.attributes[part]
+        clips[clip.id] = IndexedClip(clip, spans, gallery.embeddings[part], attributes)
     return clips
 
 

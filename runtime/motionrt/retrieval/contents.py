@@ -11,7 +11,7 @@ from motionrt.errors import FormatError
 from motionrt.formats.motion_pack import MotionPack
 from motionrt.motion.skeleton import FloatArray
 from motionrt.retrieval import store
-from motionrt.retrieval.records import Clip, ModelStamp, Skipped, WindowTable
+from motionrt.retrieval.records import Caption, Clip, ModelStamp, Skipped, WindowTable
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,6 +28,9 @@ class Contents:
     motions: MotionPack | Path | None = None
     folder: Path | None = None
     neighbours: Path | None = None
+    attributes: FloatArray | None = None
+    captions: tuple[Caption, ...] = ()
+    words_file: Path | None = None
 
     @cached_property
     def pack(self) -> MotionPack | None:

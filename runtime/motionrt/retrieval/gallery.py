@@ -18,8 +18,10 @@ from motionrt.retrieval import layout, store
 from motionrt.retrieval.contents import Contents
 from motionrt.retrieval.locking import writing
 from motionrt.retrieval.records import Clip, ModelStamp, window_table
+from motionrt.retrieval.scores import IntArray
 from motionrt.retrieval.search import ExactIndex, Hit, checked_k, nearest_per_group
-from motionrt.retrieval.windows import MotionEmbedder, embed_windows, motion_features, spans_in_seconds
+from motionrt.retrieval.windows import MotionEmbedder, embed_windows, measured, motion_features, spans_in_seconds
+from motionrt.retrieval.words import WordIndex
 
 if TYPE_CHECKING:
     from motionrt.retrieval.approximate import ApproximateIndex
@@ -40,6 +42,9 @@ class Gallery(Contents):
         motions: the clips themselves, or the file that holds them, when the gallery carries them.
         folder: where the gallery was opened or saved, ``None`` for one in memory.
         neighbours: where the index of approximate search is kept, ``None`` for a gallery in memory.
+        attributes: ``(W, A)`` float32, what each window does (:data:`motionrt.motion.attributes.ATTRIBUTES`), ``None``
+            in a gallery of an older motionrt until it is updated.
+        captions: words that the library carries about its clips.
     """
 
     def __len__(self) -> int:
@@ -91,6 +96,7 @@ class Gallery(Contents):
             window_table(spans),
             ModelStamp(model.name, model.fingerprint),
             motions=MotionPack.of([motions[i] for i in order]) if store_motions else None,
+            attributes=np.concatenate([measured(motions[i], part) for i, part in zip(order, spans, strict=True)]),
         )
 
     def save(self, folder: str | Path) -> Gallery:
@@ -143,7 +149,7 @@ class Gallery(Contents):
             found, scores = nearest_per_group(index, query, k, self.windows["clip"])
         else:
             found, scores = index.nearest(query, k)
-        return [self._hit(rank, int(i), float(s)) for rank, (i, s) in enumerate(zip(found, scores, strict=True), 1)]
+        return [self.hit(rank, int(i), float(s)) for rank, (i, s) in enumerate(zip(found, scores, strict=True), 1)]
 
     def prepare(self, *, approximate: bool = False) -> Gallery:
         """Get ready for many searches now, so that none of them waits; gives the gallery itself.
@@ -190,11 +196,41 @@ class Gallery(Contents):
 
         return load_motion(path, mapping=self.mapping)
 
-    def _hit(self, rank: int, window: int, score: float) -> Hit:
+    def nearest(self, query: FloatArray, count: int, *, approximate: bool = False) -> IntArray:
+        """The ``count`` windows nearest to a unit vector ``(256,)``, best first, or all there are.
+
+        Raises:
+            InvalidInputError: a query of another shape or not finite.
+            MissingDependencyError: ``approximate`` without the package that it needs.
+        """
+        query = np.asarray(query, dtype=np.float32)
+        if query.shape != self.embeddings.shape[1:]:
+            raise InvalidInputError(f"a query is a vector of {self.embeddings.shape[1]}, not {query.shape}")
+        return (self._approximate if approximate else self._exact).nearest(query, count)[0]
+
+    def hit(
+        self, rank: int, window: int, score: float, cosine: float | None = None, agreement: float | None = None
+    ) -> Hit:
+        """The window of that number as a hit."""
         row = self.windows[window]
         clip = self.clips[int(row["clip"])]
         start, end = float(row["start_s"]), float(row["end_s"])
-        return Hit(rank, score, clip.id, self.path(clip), start, end, clip.text)
+        return Hit(rank, score, clip.id, self.path(clip), start, end, clip.text, cosine, agreement)
+
+    @cached_property
+    def words(self) -> WordIndex:
+        """The words of captions, texts and file names; read, or found, when first needed."""
+        kept = WordIndex.read(self.words_file, len(self.windows)) if self.words_file is not None else None
+        return kept or WordIndex.of(self.clips, self.windows, self.captions)
+
+    @cached_property
+    def tags(self) -> dict[str, frozenset[str]]:
+        """Clip id -> its tags, lower case."""
+        found: dict[str, frozenset[str]] = {}
+        for caption in self.captions:
+            tags = frozenset(tag.lower() for tag in caption.tags)
+            found[caption.clip] = found.get(caption.clip, frozenset()) | tags
+        return found
 
     @cached_property
     def _exact(self) -> ExactIndex:

@@ -14,7 +14,7 @@ from motionrt.formats import load_motion
 from motionrt.motion.skeleton import FloatArray
 from motionrt.retrieval.records import Clip, Skipped
 from motionrt.retrieval.store import digest
-from motionrt.retrieval.windows import MotionEmbedder, embed_windows, motion_features, spans_in_seconds
+from motionrt.retrieval.windows import MotionEmbedder, embed_windows, measured, motion_features, spans_in_seconds
 
 FILES_PER_PROCESS = 4  # fewer are read before another process has started
 OpenModel = Callable[[], MotionEmbedder]
@@ -32,11 +32,12 @@ class FileJob:
 
 @dataclass(frozen=True, eq=False)
 class IndexedClip:
-    """A clip with its windows: spans in seconds, and embeddings ``(W, 256)``."""
+    """A clip with its windows: spans in seconds, embeddings ``(W, 256)`` and attributes ``(W, A)``."""
 
     clip: Clip
     spans: list[tuple[float, float]]
     embeddings: FloatArray
+    attributes: FloatArray | None = None
 
 
 @dataclass(frozen=True)
@@ -65,7 +66,8 @@ def index_file(job: FileJob, model: MotionEmbedder) -> Outcome:
         return Skipped(job.id, _reason(error))
     embeddings, spans = embed_windows(model, features)
     clip = Clip(job.id, motion.duration, stat.st_size, stat.st_mtime_ns, checksum)
-    return IndexedClip(clip, spans_in_seconds(spans, motion.duration), embeddings)
+    seconds = spans_in_seconds(spans, motion.duration)
+    return IndexedClip(clip, seconds, embeddings, measured(motion, seconds))
 
 
 def index_files(

@@ -11,10 +11,12 @@ from typing import IO, Any
 import numpy as np
 import numpy.typing as npt
 
+from motionrt.motion.attributes import ATTRIBUTES
 from motionrt.motion.skeleton import FloatArray
 from motionrt.retrieval import store
 from motionrt.retrieval.contents import Contents
-from motionrt.retrieval.records import WINDOW_TYPE, Clip, ModelStamp, Skipped, WindowTable
+from motionrt.retrieval.records import WINDOW_TYPE, Caption, Clip, ModelStamp, Skipped, WindowTable
+from motionrt.retrieval.words import WordIndex
 
 
 def save(gallery: Contents, folder: Path) -> None:
@@ -23,6 +25,10 @@ def save(gallery: Contents, folder: Path) -> None:
         "embeddings": (".npy", partial(_write_npy, array=gallery.embeddings)),
         "windows": (".npy", partial(_write_npy, array=gallery.windows)),
     }
+    if gallery.attributes is not None:
+        arrays["attributes"] = (".npy", partial(_write_npy, array=gallery.attributes))
+    words = WordIndex.of(gallery.clips, gallery.windows, gallery.captions)
+    arrays["words"] = (".npz", words.write)
     pack = gallery.pack
     if pack is not None:
         arrays["motions"] = (".npz", pack.write)
@@ -47,6 +53,8 @@ def _assembled(folder: Path, head: dict[str, Any]) -> Contents:
     except (KeyError, TypeError, AttributeError) as error:
         raise store.damaged(folder / store.GALLERY_FILE, f"{type(error).__name__}: {error}") from error
     _check(contents.embeddings, contents.windows, len(contents.clips), folder)
+    if contents.attributes is not None and contents.attributes.shape != (len(contents.windows), len(ATTRIBUTES)):
+        raise store.damaged(folder, "windows and attributes do not fit together")
     return contents
 
 
@@ -63,7 +71,21 @@ def _read(folder: Path, head: dict[str, Any]) -> Contents:
         motions=folder / files["motions"] if "motions" in files else None,
         folder=folder,
         neighbours=folder / store.neighbours_name(files["embeddings"]),
+        attributes=_attributes(folder, head),
+        words_file=folder / files["words"] if "words" in files else None,
+        captions=tuple(_caption(row) for row in head.get("captions", ())),
     )
+
+
+def _attributes(folder: Path, head: dict[str, Any]) -> FloatArray | None:
+    """Attributes ``(W, A)``; None of a gallery that has none, or those of another version of motionrt."""
+    if head.get("attributes") != list(ATTRIBUTES):
+        return None
+    return store.read_array(folder, head["files"]["attributes"])
+
+
+def _caption(row: dict[str, Any]) -> Caption:
+    return Caption(**{**row, "tags": tuple(row["tags"])})
 
 
 def _check(embeddings: FloatArray, windows: WindowTable, clips: int, folder: Path) -> None:
@@ -82,6 +104,8 @@ def _head(gallery: Contents, folder: Path) -> dict[str, Any]:
         "mapping": dict(gallery.mapping) if gallery.mapping else None,
         "clips": [asdict(clip) for clip in gallery.clips],
         "skipped": [asdict(skipped) for skipped in gallery.skipped],
+        **({} if gallery.attributes is None else {"attributes": list(ATTRIBUTES)}),
+        **({"captions": [asdict(caption) for caption in gallery.captions]} if gallery.captions else {}),
     }
 
 

@@ -38,6 +38,24 @@ class Clip:
 
 
 @dataclass(frozen=True)
+class Caption:
+    """Words that a library carries about a clip, or about a part of it.
+
+    Attributes:
+        clip: the clip's id.
+        text: a caption, or words that people search for.
+        start_s, end_s: the part that it is about, seconds; the whole clip without them.
+        tags: words to filter by.
+    """
+
+    clip: str
+    text: str
+    start_s: float | None = None
+    end_s: float | None = None
+    tags: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
 class Skipped:
     """A file that could not be indexed, and why."""
 

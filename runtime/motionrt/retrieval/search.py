@@ -28,12 +28,14 @@ class Hit:
 
     Attributes:
         rank: 1 is best.
-        score: cosine of text and motion, -1 to 1.
+        score: what hits are ordered by: the cosine of text and motion, -1 to 1, and what attributes and words add.
         id: the clip's name in its gallery: its path below the indexed folder, with forward slashes.
         path: the clip's file; ``None`` when the gallery carries the motion itself.
         start_s: where the found span starts in the clip, seconds.
         end_s: where it ends.
         text: what the gallery knows the clip to show, if anything.
+        cosine: the cosine alone, where the score has other parts.
+        agreement: how well the measured attributes agree with the text, 0 to 1; ``None`` where neither says anything.
     """
 
     rank: int
@@ -43,6 +45,8 @@ class Hit:
     start_s: float
     end_s: float
     text: str | None = None
+    cosine: float | None = None
+    agreement: float | None = None
 
 
 class VectorIndex(Protocol):

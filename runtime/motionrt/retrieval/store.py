@@ -22,7 +22,7 @@ from motionrt.errors import GalleryError, GalleryNotFoundError
 GALLERY_FILE = "gallery.json"
 DEFAULT_FOLDER = ".motionrt-gallery"
 FORMAT, VERSION = "motionrt-gallery", 1
-_ARRAY_FILE = re.compile(r"(embeddings|windows|motions)-[0-9a-f]{16}\.np[yz]")
+_ARRAY_FILE = re.compile(r"(embeddings|windows|motions|attributes|words)-[0-9a-f]{16}\.np[yz]")
 _NEIGHBOURS = re.compile(r"neighbours-[0-9a-f]{16}\.faiss")
 TEMPORARY = ".writing-"
 

@@ -8,6 +8,7 @@ from typing import Protocol
 import numpy as np
 
 from motionrt.motion import Motion
+from motionrt.motion.attributes import measure
 from motionrt.motion.features import guo263
 from motionrt.motion.skeleton import FloatArray
 
@@ -53,6 +54,17 @@ def window_spans(frames: int, size: int = WINDOW_FRAMES, hop: int = HOP_FRAMES) 
 def spans_in_seconds(spans: list[tuple[int, int]], duration_s: float) -> list[tuple[float, float]]:
     """Frame spans at 20 fps as seconds of a clip that lasts ``duration_s``."""
     return [(start / FPS, min(end / FPS, duration_s)) for start, end in spans]
+
+
+def measured(motion: Motion, spans: Sequence[tuple[float, float]]) -> FloatArray:
+    """Attributes ``(W, A)`` of the spans of a motion, in the order of :data:`motionrt.motion.attributes.ATTRIBUTES`."""
+    joints = motion.positions()
+    rows = []
+    for start_s, end_s in spans:
+        first = min(round(start_s * motion.fps), len(joints) - 1)
+        part = joints[first : max(round(end_s * motion.fps), first + 1)]
+        rows.append(measure(part, motion.fps).row())
+    return np.stack(rows)
 
 
 def embed_windows(embedder: MotionEmbedder, features: FloatArray) -> tuple[FloatArray, list[tuple[int, int]]]:

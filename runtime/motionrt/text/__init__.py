@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from motionrt.text.agreement import Agreement, agreement, agreements
 from motionrt.text.parsing import parse_query
 from motionrt.text.query import ACTIONS, TextAttributes
 from motionrt.text.slots import (
@@ -17,7 +18,10 @@ __all__ = [
     "ACTIONS",
     "SLOTS",
     "TARGETS",
+    "Agreement",
     "TextAttributes",
+    "agreement",
+    "agreements",
     "attribute_targets",
     "mirror_slots",
     "parse_query",
