@@ -21,6 +21,7 @@ INPUTS = ".bvh, .amc, .fbx, .glb, .gltf, .vrm, .vrma, .npz, .npy"
 _OPTIONS = {
     "fps": "--source-fps",
     "mapping": "--mapping",
+    "rig_mapping": "--rig-mapping",
     "animation": "--animation",
     "skin": "--skin",
     "asf": "--asf",
@@ -28,7 +29,7 @@ _OPTIONS = {
 }
 """Arguments of the readers -> the options of the command line that set them."""
 
-_ARGUMENT = re.compile(r"\b(fps|mapping|animation|skin|asf|up)=(?:\{('[^']*'): ('[^']*'), \.\.\.\})?")
+_ARGUMENT = re.compile(r"\b(fps|rig_mapping|mapping|animation|skin|asf|up)=(?:\{('[^']*'): ('[^']*'), \.\.\.\})?")
 
 
 def add_reading(parser: argparse.ArgumentParser) -> None:

@@ -43,6 +43,7 @@ def add(commands: Any) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Retarget, and say what was written."""
+    from motionrt.errors import RigError
     from motionrt.formats import load_target
 
     rig_mapping = read_mapping(arguments.rig_mapping)
@@ -50,7 +51,10 @@ def run(arguments: argparse.Namespace) -> int:
     motion = read_motion(arguments, arguments.clip)
     if arguments.fps is not None:
         motion = motion.resample(arguments.fps)
-    moved = motion.retarget_to(rig, mapping=rig_mapping, root_motion=arguments.root_motion)
+    try:
+        moved = motion.retarget_to(rig, mapping=rig_mapping, root_motion=arguments.root_motion)
+    except RigError as error:
+        raise RigError(str(error).replace("mapping=", "rig_mapping=")) from error
     path = moved.save(arguments.output, units=arguments.units, t_pose=arguments.t_pose)
     joints = sum(not name.endswith("_end") for name in moved.names)  # end sites of a BVH are none
     if arguments.json:
