@@ -50,7 +50,11 @@ GlobalSettings: {{
     }}
 }}
 Objects: {{
-AnimationStack: 1, "AnimStack::{take}", "" {{ Properties70: {{ P: "LocalStop", "KTime", "Time", "",{stop} }} }}
+AnimationStack: 1, "AnimStack::{take}", "" {{
+    Properties70: {{
+        P: "LocalStop", "KTime", "Time", "",{stop}
+    }}
+}}
 AnimationLayer: 2, "AnimLayer::Base", "" {{ }}
 {chr(10).join(objects)}
 }}

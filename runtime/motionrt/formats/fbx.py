@@ -68,7 +68,7 @@ def read_fbx(
     )
 
 
-def _standing(scene: Any, joints: _Joints) -> RigClip:
+def _standing(scene: _Scene, joints: _Joints) -> RigClip:
     poses = np.array([_pose(node.local_transform) for node in joints.nodes])
     turns = quaternion_to_matrix(normalise(np.roll(poses[:, 3:], 1, axis=-1))).astype(np.float32)
     places = (poses[:, :3] * joints.units[:, None]).astype(np.float32)
@@ -81,17 +81,43 @@ def fbx_animations(path: Path) -> list[str]:
     """Names of the takes that move the skeleton."""
     scene = open_scene(path)
     nodes = _joints(scene, path).nodes
-    return [stack.name for stack in scene.anim_stacks if _moves(stack, nodes)]
+    return [take.name for take in _takes(scene) if _moves(take, nodes)]
 
 
-def open_scene(path: Path) -> Any:
-    """The file as a scene of ``ufbx`` in metres and Y up."""
+@dataclass(frozen=True, eq=False)
+class _Scene:
+    """An open scene, with all of its objects held.
+
+    ``ufbx`` 0.0.5 hands out the same object for the same element without holding it: one that was let go is read again
+    from freed memory. So everything is fetched once and kept as long as the scene.
+    """
+
+    raw: Any
+    nodes: list[Any]
+    attributes: list[tuple[Any, ...]]
+    stacks: list[Any]
+    anims: list[Any]
+    skins: list[Any]
+    clusters: list[Any]
+    settings: Any
+
+    @staticmethod
+    def of(raw: Any) -> _Scene:
+        """All that is read of a scene."""
+        nodes, stacks, skins = list(raw.nodes), list(raw.anim_stacks), list(raw.skin_deformers)
+        attributes = [(node.bone, node.mesh, node.camera, node.light) for node in nodes]
+        clusters = [cluster for skin in skins for cluster in skin.clusters]
+        return _Scene(raw, nodes, attributes, stacks, [stack.anim for stack in stacks], skins, clusters, raw.settings)
+
+
+def open_scene(path: Path) -> _Scene:
+    """The file as a scene in metres and Y up."""
     require_file(path)
     ufbx = _library()
     if path.stat().st_size > FILE_LIMIT:
         raise FormatError(path, f"has {path.stat().st_size} bytes; at most {FILE_LIMIT} are read")
     try:
-        return ufbx.load_file(
+        raw = ufbx.load_file(
             str(path),
             target_axes=ufbx.axes_right_handed_y_up,
             target_unit_meters=1.0,
@@ -102,6 +128,7 @@ def open_scene(path: Path) -> Any:
         )
     except ufbx.UfbxError as error:
         raise FormatError(path, f"is no FBX file that can be read: {error}") from error
+    return _Scene.of(raw)
 
 
 def _library() -> Any:
@@ -124,11 +151,12 @@ class _Joints:
     units: Array
 
 
-def _joints(scene: Any, path: Path) -> _Joints:
+def _joints(scene: _Scene, path: Path) -> _Joints:
     every = [node for node in scene.nodes if not node.is_root]
-    bones = [node for node in every if node.bone is not None]
+    kinds = {node.typed_id: kinds for node, kinds in zip(scene.nodes, scene.attributes, strict=True)}
+    bones = [node for node in every if kinds[node.typed_id][0] is not None]
     if len(bones) < _FEWEST_BONES:
-        bones = [node for node in every if node.mesh is None and node.camera is None and node.light is None]
+        bones = [node for node in every if kinds[node.typed_id][1:] == (None, None, None)]
     if not bones:
         raise FormatError(path, "holds no skeleton: no bones and no empty nodes")
     members = _one_figure(bones, path)
@@ -174,8 +202,8 @@ def _unique(names: list[str]) -> tuple[str, ...]:
     return tuple(out)
 
 
-def _take(scene: Any, nodes: Sequence[Any], animation: int | str | None, path: Path) -> Any:
-    stacks = list(scene.anim_stacks)
+def _take(scene: _Scene, nodes: Sequence[Any], animation: int | str | None, path: Path) -> _Take:
+    stacks = _takes(scene)
     names = [stack.name for stack in stacks]
     if animation is not None:
         return stacks[chosen("animation", animation, names, path)]
@@ -188,7 +216,29 @@ def _take(scene: Any, nodes: Sequence[Any], animation: int | str | None, path: P
     return moving[0]
 
 
-def _moves(stack: Any, nodes: Sequence[Any]) -> bool:
+@dataclass(frozen=True, eq=False)
+class _Take:
+    """What an animation stack animates, and from when to when, seconds."""
+
+    name: str
+    anim: Any
+    time_begin: float
+    time_end: float
+
+
+def _takes(scene: _Scene) -> list[_Take]:
+    """All takes; one that states no time lasts from its first key to its last."""
+    out = []
+    for stack, anim in zip(scene.stacks, scene.anims, strict=True):
+        begin, end = float(stack.time_begin), float(stack.time_end)
+        if end <= begin:
+            baked = _library().bake_anim(scene.raw, anim)
+            begin, end = float(baked.key_time_min), float(baked.key_time_max)
+        out.append(_Take(str(stack.name), anim, begin, max(begin, end)))
+    return out
+
+
+def _moves(stack: _Take, nodes: Sequence[Any]) -> bool:
     times = np.linspace(stack.time_begin, stack.time_end, 7)
     poses = np.array([[_pose(node.evaluate_transform(stack.anim, time)) for node in nodes] for time in times])
     return bool(np.abs(poses - poses[0]).max() > 1e-6)
@@ -198,12 +248,12 @@ def _pose(transform: Any) -> tuple[float, ...]:
     return (*transform.translation, *transform.rotation)
 
 
-def _rate(scene: Any) -> float:
+def _rate(scene: _Scene) -> float:
     rate = float(scene.settings.frames_per_second)
     return rate if 1 <= rate <= 1000 else 30.0
 
 
-def _sampled(joints: _Joints, stack: Any, times: Array) -> tuple[Array, Array]:
+def _sampled(joints: _Joints, stack: _Take, times: Array) -> tuple[Array, Array]:
     """Local rotations ``(F, J, 3, 3)`` and translations ``(F, J, 3)`` in metres."""
     rotations = np.empty((len(times), len(joints.nodes), 3, 3), dtype=np.float32)
     translations = np.empty((len(times), len(joints.nodes), 3), dtype=np.float32)
@@ -215,7 +265,7 @@ def _sampled(joints: _Joints, stack: Any, times: Array) -> tuple[Array, Array]:
     return rotations, translations
 
 
-def _rest(scene: Any, joints: _Joints) -> tuple[Array, Array]:
+def _rest(scene: _Scene, joints: _Joints) -> tuple[Array, Array]:
     """Offsets ``(J, 3)`` and local rotations ``(J, 3, 3)`` of the bind pose, or of the nodes where there is no skin."""
     poses = np.array([_pose(node.local_transform) for node in joints.nodes])
     rest = quaternion_to_matrix(normalise(np.roll(poses[:, 3:], 1, axis=-1)))
@@ -233,16 +283,16 @@ def _rest(scene: Any, joints: _Joints) -> tuple[Array, Array]:
     return offsets.astype(np.float32), rest
 
 
-def _bind_matrices(scene: Any, joints: _Joints) -> dict[int, Array]:
+def _bind_matrices(scene: _Scene, joints: _Joints) -> dict[int, Array]:
     """Global transforms ``(3, 4)`` at binding by joint, from all skins."""
     place = {node.typed_id: joint for joint, node in enumerate(joints.nodes)}
     out: dict[int, Array] = {}
-    for skin in scene.skin_deformers:
-        for cluster in skin.clusters:
-            if cluster.bone_node is not None and cluster.bone_node.typed_id in place:
-                matrix = _matrix(cluster.bind_to_world)
-                if abs(np.linalg.det(matrix[:, :3])) > 1e-18:
-                    out.setdefault(place[cluster.bone_node.typed_id], matrix)
+    for cluster in scene.clusters:
+        node = cluster.bone_node
+        if node is not None and node.typed_id in place:
+            matrix = _matrix(cluster.bind_to_world)
+            if abs(np.linalg.det(matrix[:, :3])) > 1e-18:
+                out.setdefault(place[node.typed_id], matrix)
     return out
 
 

@@ -42,7 +42,11 @@ def mapping_text(mapping: Mapping[str, str]) -> str:
 
 
 def save_mapping(mapping: Mapping[str, str], path: str | Path) -> Path:
-    """Write a mapping as YAML; returns ``path``."""
+    """Write a mapping as YAML; returns ``path``.
+
+    Raises:
+        InvalidInputError: the file cannot be written.
+    """
     path = Path(path)
     try:
         path.write_text(mapping_text(mapping), encoding="utf-8")
