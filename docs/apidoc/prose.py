@@ -46,6 +46,7 @@ def _entry(line: str) -> str:
 
 
 def inline(text: str) -> str:
+    """Inline markup of reStructuredText as Markdown."""
     plain = _ROLE.sub(lambda match: f"`{match[1].removeprefix('motionrt.')}`", text)
     return re.sub(r"``([^`]+)``", r"`\1`", plain)
 

@@ -76,10 +76,12 @@ def errors_page() -> str:
 
 
 def target_of(place: str) -> Any:
+    """The object that ``module:name`` means."""
     module, name = place.split(":")
     return getattr(import_module(module), name)
 
 
 def shown(place: str) -> str:
+    """A place as readers write it: ``motionrt.Runtime``."""
     module, name = place.split(":")
     return f"{module}.{name}"

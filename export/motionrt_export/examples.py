@@ -21,7 +21,8 @@ Feeds = dict[str, Array]
 class Examples(Protocol):
     """Makes inputs of any size, all of the given length."""
 
-    def __call__(self, batch: int, length: int, seed: int) -> Feeds: ...
+    def __call__(self, batch: int, length: int, seed: int) -> Feeds:
+        """Inputs of ``batch`` rows of that length, the same for the same seed."""
 
 
 def random_examples(spec: GraphSpec) -> Examples:
@@ -50,6 +51,7 @@ class Sentences:
         self._ids = [encode(sentence) for sentence in SENTENCES]
 
     def __call__(self, batch: int, length: int, seed: int) -> Feeds:
+        """Inputs of ``batch`` rows of that length, the same for the same seed."""
         random = np.random.default_rng(seed)
         rows = np.stack([self._row(random, length) for _ in range(batch)])
         return {"input_ids": rows, "attention_mask": np.ones_like(rows)}

@@ -78,6 +78,7 @@ class FeedForward(nn.Module):
         self.up, self.down = linear(up.weight, up.bias), linear(down.weight, down.bias)
 
     def forward(self, x: Tensor) -> Tensor:
+        """As the layer that it replaces."""
         return self.down(F.gelu(self.up(x)))
 
 
@@ -92,6 +93,7 @@ class Encoder(nn.Module):
         self.norm1, self.norm2 = source.norm1, source.norm2
 
     def forward(self, x: Tensor, bias: Tensor | None = None) -> Tensor:
+        """As the layer that it replaces."""
         kept = x if self.first is None else x[:, : self.first]
         x = self.norm1(kept + self.attention(x, bias))
         return self.norm2(x + self.feed(x))

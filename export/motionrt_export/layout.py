@@ -18,6 +18,7 @@ class Layout:
 
     @property
     def root(self) -> Path:
+        """The folder that files in the manifest are relative to."""
         return self.manifest.parent
 
     @property

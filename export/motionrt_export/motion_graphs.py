@@ -36,6 +36,7 @@ class PostNorm(Encoder):
             last.weight, last.bias = constant(-last.weight), constant(-last.bias)
 
     def forward(self, x: Tensor, bias: Tensor | None = None) -> Tensor:
+        """As the layer that it replaces."""
         kept = x if self.first is None else x[:, : self.first]
         x = self.norm1(kept - self.attention(x, bias))
         return self.norm2(x - self.feed(x))

@@ -23,9 +23,11 @@ class Weights:
         return name in self.tensors
 
     def shape(self, name: str) -> tuple[int, ...]:
+        """The shape of a stored tensor."""
         return tuple(self.tensors[name].dims)
 
     def get(self, name: str) -> np.ndarray:
+        """A stored tensor as an array."""
         return numpy_helper.to_array(self.tensors[name])
 
     def add(self, name: str, value: np.ndarray) -> str:

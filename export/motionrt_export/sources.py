@@ -12,7 +12,7 @@ import numpy as np
 from torch import nn
 
 from motionrt.retrieval.captions import read_captions
-from motionrt.runtime import DEFAULT_CAPTIONS
+from motionrt.services.search import DEFAULT_CAPTIONS
 from motionrt_export import references, specs
 from motionrt_export.calibration import calibration_feeds, sentence_ids
 from motionrt_export.drift import TransitionDrift, WalkDrift
@@ -75,7 +75,7 @@ class Sources:
     motions are made when TEMOS and its denoiser are; texts are tried on every `every`-th caption of the runtime's list.
     """
 
-    steps, characters, generations, every = 1000, 16, 64, 1
+    steps, characters, generations, every = 1000, 32, 64, 1
 
     def __init__(self, checkpoints: Path) -> None:
         self.folder = checkpoints
@@ -100,38 +100,47 @@ class Sources:
 
     @cached_property
     def backbone(self) -> MiniLM:
+        """The frozen sentence encoder."""
         return MiniLM.from_package()
 
     @cached_property
     def tmr(self) -> Release[TMR]:
+        """TMR as released."""
         return self._released(TMR)
 
     @cached_property
     def walknet(self) -> Release[WalkNet]:
+        """WalkNet as released."""
         return self._released(WalkNet)
 
     @cached_property
     def transnet(self) -> Release[TransNet]:
+        """TransNet as released."""
         return self._released(TransNet)
 
     @cached_property
     def pose_prior(self) -> Release[PosePrior]:
+        """The pose prior as released."""
         return self._released(PosePrior)
 
     @cached_property
     def temos(self) -> Release[Temos]:
+        """TEMOS as released."""
         return self._released(Temos)
 
     @cached_property
     def latent_denoiser(self) -> Release[LatentDenoiser]:
+        """The denoiser of latent diffusion as released."""
         return self._released(LatentDenoiser)
 
     @property
     def tokenizer_file(self) -> Path:
+        """The file of the tokenizer."""
         return package_folder() / "tokenizer.json"
 
     @cached_property
     def sentences(self) -> Sentences:
+        """Sentences as token ids, for examples and calibration."""
         return Sentences(sentence_ids(self.tokenizer_file))
 
     def source(self, name: str) -> Source:
@@ -221,4 +230,5 @@ class Sources:
 
     @cached_property
     def walks(self) -> Walks:
+        """Walks that WalkNet begins with."""
         return Walks(self.walknet.model)

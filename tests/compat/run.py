@@ -28,7 +28,7 @@ import tomllib
 ROOT = Path(__file__).parents[2]
 TEST_TOOLS = ("pytest", "hypothesis")
 KINDS = ("lowest", "newest")
-_REQUIREMENT = re.compile(r"^\s*([A-Za-z0-9._-]+)\s*>=\s*([0-9][0-9A-Za-z.]*)\s*$")
+_REQUIREMENT = re.compile(r"^\s*([A-Za-z0-9._-]+)\s*>=\s*([0-9][0-9A-Za-z.]*)(?:\s*,\s*!=\s*[0-9][0-9A-Za-z.]*)*\s*$")
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -81,7 +81,7 @@ def _one(
 
 
 def requirements(pyproject: Path, extras: Sequence[str] = ()) -> dict[str, str]:
-    """The dependencies of a pyproject.toml with the lowest version of each, all of the form ``name>=version``."""
+    """The dependencies of a pyproject.toml with the lowest version of each: ``name>=version``, and ``!=`` behind it."""
     project = tomllib.loads(pyproject.read_text(encoding="utf-8"))["project"]
     optional = project["optional-dependencies"]
     listed = [*project["dependencies"], *(line for extra in extras for line in optional[extra])]

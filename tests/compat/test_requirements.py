@@ -17,6 +17,12 @@ def test_the_lowest_versions_are_those_behind_the_signs(tmp_path: Path) -> None:
     assert requirements(tmp_path / "pyproject.toml", ["x"]) == {"numpy": "1.26", "a-b": "2.0.1", "c": "3"}
 
 
+def test_releases_that_are_excluded_do_not_hide_the_lowest(tmp_path: Path) -> None:
+    text = '[project]\ndependencies = ["a>=1.2,!=1.4.1, != 1.9.0"]\n[project.optional-dependencies]\n'
+    (tmp_path / "pyproject.toml").write_text(text, encoding="utf-8")
+    assert requirements(tmp_path / "pyproject.toml") == {"a": "1.2"}
+
+
 def test_a_dependency_without_a_lowest_version_is_refused(tmp_path: Path) -> None:
     text = '[project]\ndependencies = ["numpy"]\n[project.optional-dependencies]\n'
     (tmp_path / "pyproject.toml").write_text(text, encoding="utf-8")

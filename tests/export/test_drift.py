@@ -13,7 +13,7 @@ pytest.importorskip("onnx", reason="onnx is not installed; the export extra brin
 
 from tiny_nets import TinySources, tiny_sources  # noqa: E402
 
-from motionrt_export.drift import TransitionDrift, WalkDrift, joints, ratio  # noqa: E402
+from motionrt_export.drift import LEAST_M, TransitionDrift, WalkDrift, beyond_chance, joints, ratio  # noqa: E402
 from motionrt_export.measures import beyond  # noqa: E402
 from motionrt_export.references import Reference, transition_reference, walk_reference  # noqa: E402
 from motionrt_export.tolerances import tolerance  # noqa: E402
@@ -57,6 +57,26 @@ def test_a_walk_that_is_pushed_aside_is_beyond_the_tolerance(sources: TinySource
     broken = beyond(figures, {"walk": tolerance("walknet", "int8")["walk"]})
     assert any("path_deviation_ratio" in words for words in broken)
     assert any("joints_cm_after_1_s" in words for words in broken)
+
+
+def test_only_a_difference_beyond_two_standard_errors_counts_as_one() -> None:
+    random = np.random.default_rng(0)
+    theirs = random.gamma(4.0, 0.012, (2000, 32))  # metres from the path, 0.048 on average
+    same = random.gamma(4.0, 0.012, (2000, 32))
+    found = [beyond_chance(ours, other, LEAST_M) for ours, other in zip(same, theirs, strict=True)]
+    assert np.mean([value > 1.05 for value in found]) < 0.02  # no difference is hardly ever taken for one
+    worse = [beyond_chance(1.8 * ours, other, LEAST_M) for ours, other in zip(same, theirs, strict=True)]
+    assert np.mean([value > 1.05 for value in worse]) > 0.95  # and one of 80 % hardly ever overlooked
+
+
+def test_the_standard_error_of_a_ratio_is_that_of_simulated_ones() -> None:
+    random = np.random.default_rng(1)
+    ours, theirs = random.normal(1.2, 0.1, (4000, 50)), random.normal(1.0, 0.1, (4000, 50))
+    simulated = (ours.mean(axis=1) / theirs.mean(axis=1)).std()
+    errors = [
+        (ratio(a.mean(), b.mean(), 0.0) - beyond_chance(a, b, 0.0)) / 2 for a, b in zip(ours, theirs, strict=True)
+    ]
+    assert np.mean(errors) == pytest.approx(simulated, rel=0.03)
 
 
 def test_a_transition_that_is_bent_is_beyond_the_tolerance(sources: TinySources, transitions: Transitions) -> None:

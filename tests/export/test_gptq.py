@@ -98,7 +98,7 @@ def test_outputs_are_nearer_than_with_the_nearest_weights_and_twice_the_same() -
 
 def test_calibration_and_the_captions_that_judge_it_have_nothing_in_common() -> None:
     from motionrt.retrieval.captions import read_captions
-    from motionrt.runtime import DEFAULT_CAPTIONS
+    from motionrt.services.search import DEFAULT_CAPTIONS
 
     known = [sentence.lower() for sentence in (*SENTENCES, *MORE_SENTENCES)]
     assert len({*known}) == len(known)

@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 from fake_embedder import FakeEmbedder
 
-from motionrt import runtime as runtime_module
 from motionrt.bench import processes, report, rivals, starts, timing, worker
 from motionrt.bench.cases import BENCHMARKS, chosen
 from motionrt.bench.finds import CLIPS, TEXT, answer_case, motion_case, search_case
@@ -20,6 +19,7 @@ from motionrt.bench.setting import Setting
 from motionrt.bench.timing import Contest, Timing, Turns, timed
 from motionrt.bench.workload import Workload
 from motionrt.errors import InvalidInputError, MissingDependencyError, MotionRTError
+from motionrt.services import search as search_module
 
 SIZES = (500, 5_000)
 RETRIEVAL = ["text", "motion", "search", "retrieve", "cold"]
@@ -33,7 +33,7 @@ def work() -> Workload:
 
 @pytest.fixture(autouse=True)
 def fake_models(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(runtime_module, "TextMotionModel", lambda *_, **__: FakeEmbedder())
+    monkeypatch.setattr(search_module, "TextMotionModel", lambda *_, **__: FakeEmbedder())
 
 
 def open_double(work: Workload, threads: int, models: str | None) -> rivals.Rival:

@@ -12,11 +12,11 @@ from fake_embedder import WIDTH, FakeEmbedder
 from motions import random_motion, standing, walking
 
 import motionrt
-from motionrt import runtime as runtime_module
 from motionrt.errors import GalleryError, GalleryNotFoundError, InvalidInputError
 from motionrt.models.engine import CPU
 from motionrt.retrieval import Gallery, motion_features
 from motionrt.runtime import Runtime
+from motionrt.services import search as search_module
 
 
 class CountingModel(FakeEmbedder):
@@ -83,7 +83,7 @@ def test_a_missing_gallery_says_how_to_build_one(runtime: Runtime, tmp_path: Pat
 def test_without_a_gallery_the_starter_gallery_is_searched(
     runtime: Runtime, gallery: Gallery, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(runtime_module, "STARTER_GALLERY", tmp_path)
+    monkeypatch.setattr(search_module, "STARTER_GALLERY", tmp_path)
     with pytest.raises(GalleryNotFoundError, match="starter gallery is not installed"):
         runtime.retrieve("walk")
     gallery.save(tmp_path)
@@ -144,7 +144,7 @@ def test_describe_has_captions_of_its_own(runtime: Runtime) -> None:
 def test_captions_that_are_embedded_on_disk_are_not_embedded_again(
     runtime: Runtime, model: CountingModel, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(runtime_module, "EMBEDDED_CAPTIONS", tmp_path / "captions.npz")
+    monkeypatch.setattr(search_module, "EMBEDDED_CAPTIONS", tmp_path / "captions.npz")
     runtime.captions().save(tmp_path / "captions.npz")
     embedded = model.texts
     again = Runtime()
@@ -169,7 +169,7 @@ def test_galleries_are_built_and_updated_through_the_runtime(tmp_path: Path, mon
         opened.append({"models": models, **options})
         return FakeEmbedder()
 
-    monkeypatch.setattr(runtime_module, "TextMotionModel", open_model)
+    monkeypatch.setattr(search_module, "TextMotionModel", open_model)
     walking(30).save(tmp_path / "walk.bvh")
     runtime = Runtime("my models", threads=2)
     assert runtime.build_gallery(tmp_path).added == ("walk.bvh",)

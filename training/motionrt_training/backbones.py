@@ -45,6 +45,7 @@ class MiniLMBackbone:
 
     @torch.no_grad()
     def encode(self, text: str) -> Encoded:
+        """Token features, mask and sentence embedding of one text."""
         ids = torch.tensor([self.tokenizer.encode(text).ids])
         mask = torch.ones_like(ids)
         tokens = self.model(ids, mask)
@@ -70,6 +71,7 @@ class OnnxBackbone:
         self.fingerprint = f"onnx-{hashlib.sha256(path.read_bytes()).hexdigest()}"
 
     def encode(self, text: str) -> Encoded:
+        """Token features, mask and sentence embedding of one text."""
         ids = np.array([self.tokenizer.encode(text).ids], dtype=np.int64)
         feed = {"input_ids": ids, "attention_mask": np.ones_like(ids), **self._only}
         tokens, sentence = self.session.run(["token_features", "sentence_embedding"], feed)
@@ -90,6 +92,7 @@ class HuggingFaceBackbone:
 
     @torch.no_grad()
     def encode(self, text: str) -> Encoded:
+        """Token features, mask and sentence embedding of one text."""
         inputs = self.tokenizer(text, return_tensors="pt", truncation=True, max_length=MAX_TOKENS)
         tokens = self.model(**inputs).last_hidden_state
         return tokens[0].numpy(), mean_pooled(tokens, inputs["attention_mask"])[0].numpy()

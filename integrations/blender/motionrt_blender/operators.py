@@ -101,7 +101,7 @@ class MOTIONRT_OT_search(_NeedsPackage, bpy.types.Operator):
             line = chosen.hits.add()
             line.clip, line.text, line.score = hit.id, hit.text or "", hit.score
             line.start_s, line.end_s = hit.start_s, hit.end_s
-        return f"{len(found)} clips"
+        return found.notice or f"{len(found)} clips"
 
 
 class MOTIONRT_OT_index(_NeedsPackage, bpy.types.Operator):

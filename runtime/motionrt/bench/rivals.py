@@ -44,9 +44,7 @@ def open_rival(name: str, work: Workload, threads: int, models: str | None) -> R
     found = list(entry_points(group=GROUP, name=name))
     if not found:
         known = ", ".join(sorted({point.name for point in entry_points(group=GROUP)})) or "nothing"
-        raise InvalidInputError(
-            f"cannot compare with '{name}': installed is {known}; try: pip install motionrt[export]"
-        )
+        raise InvalidInputError(f"cannot compare with '{name}': installed is {known}; try: pip install motionrt-export")
     try:
         opener: OpenRival = found[0].load()
     except ImportError as error:
@@ -56,4 +54,4 @@ def open_rival(name: str, work: Workload, threads: int, models: str | None) -> R
 
 def _remedy(name: str, error: ImportError) -> str:
     """What to install: the package that the rival is called after, where that is what is missing."""
-    return f"pip install {name}" if error.name == name != "torch" else "pip install motionrt[export]"
+    return f"pip install {name}" if error.name == name != "torch" else "pip install motionrt-export"

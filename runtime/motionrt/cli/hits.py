@@ -48,7 +48,9 @@ def show(hits: Sequence[Hit], gallery: Gallery, arguments: argparse.Namespace) -
     if arguments.json:
         print_json([as_json(hit) for hit in hits])
     else:
-        _print(hits)
+        from motionrt.retrieval import grouped
+
+        _print([hit for group in grouped(hits) for hit in group])
     if arguments.save is not None:
         _save(hits, gallery, arguments.save)
     if arguments.pictures is not None and hits:

@@ -124,6 +124,7 @@ class Manifest:
 
     @property
     def root(self) -> Path:
+        """The folder that files in the manifest are relative to."""
         return self.path.parent
 
     def model(self, name: str) -> Model:

@@ -116,12 +116,14 @@ class Opening(threading.Thread):
         self.start()
 
     def run(self) -> None:
+        """Open the session; called by the thread."""
         try:
             self._found.append(self._open())
         except Exception as error:  # noqa: BLE001  # it is raised to whoever asked for the session
             self._found.append(error)
 
     def result(self) -> InferenceSession:
+        """The session, or what went wrong, raised."""
         found = self._found[0]
         if isinstance(found, Exception):
             raise found

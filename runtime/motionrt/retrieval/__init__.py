@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from motionrt.retrieval.captions import EmbeddedCaptions, checked_captions, read_captions
     from motionrt.retrieval.describing import Description, describe
     from motionrt.retrieval.filters import Filter
-    from motionrt.retrieval.finding import Hits, Search, find
+    from motionrt.retrieval.finding import Hits, Search, find, grouped
     from motionrt.retrieval.gallery import Gallery
     from motionrt.retrieval.likeness import Duplicates, duplicates, similar
     from motionrt.retrieval.moments import WINDOW_LENGTHS, Moment, Moments, find_moments
@@ -28,7 +28,7 @@ _HOMES = {
     "captions": ("EmbeddedCaptions", "checked_captions", "read_captions"),
     "describing": ("Description", "describe"),
     "filters": ("Filter",),
-    "finding": ("Hits", "Search", "find"),
+    "finding": ("Hits", "Search", "find", "grouped"),
     "gallery": ("Gallery",),
     "likeness": ("Duplicates", "duplicates", "similar"),
     "moments": ("WINDOW_LENGTHS", "Moment", "Moments", "find_moments"),
@@ -68,6 +68,7 @@ __all__ = [
     "embed_whole",
     "find",
     "find_moments",
+    "grouped",
     "locate",
     "motion_features",
     "read_captions",

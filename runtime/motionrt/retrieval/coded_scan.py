@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from motionrt.models.engine import engine, open_session
+from motionrt.models.engine import CPU, Providers, engine, open_session
 from motionrt.models.sessions import quiet_options
 from motionrt.motion.skeleton import FloatArray
 from motionrt.retrieval.codes import LEVELS, ZERO, ByteArray, CodedQuery, Codes, code_query, code_rows, padded
@@ -34,13 +34,13 @@ _MAX_COLUMNS, _ROWS = 4096, 16
 class CodedScan:
     """The 8-bit copy of a set of vectors; :meth:`build` makes it. May be used from several threads."""
 
-    def __init__(self, vectors: FloatArray, directions: Directions | None) -> None:
+    def __init__(self, vectors: FloatArray, directions: Directions | None, providers: Providers = CPU) -> None:
         self._vectors = vectors
-        self._directions = directions
+        self._directions, self._providers = directions, providers
         self._width = padded(vectors.shape[1] if directions is None else directions.width)
 
     @classmethod
-    def build(cls, vectors: FloatArray) -> CodedScan | None:
+    def build(cls, vectors: FloatArray, providers: Providers = CPU) -> CodedScan | None:
         """Code ``vectors`` ``(N, d)``, C-ordered float32; None where that cannot work, and float32 has to do.
 
         That is: more than 256 numbers a vector, numbers not finite or of extreme size, or a machine whose 8-bit
@@ -48,8 +48,8 @@ class CodedScan:
         """
         if vectors.size == 0:
             return None
-        made = cls(vectors, Directions.of(vectors) if len(vectors) >= NARROW_FROM else None)
-        return made if made._width <= MAX_WIDTH and _is_exact(made._width) and made._code() else None
+        made = cls(vectors, Directions.of(vectors) if len(vectors) >= NARROW_FROM else None, providers)
+        return made if made._width <= MAX_WIDTH and _is_exact(made._width, providers) and made._code() else None
 
     @property
     def width(self) -> int:
@@ -97,7 +97,7 @@ class CodedScan:
         if codes is None:
             return False
         self._codes = codes
-        self._session = _open(self._memory, codes.scales)
+        self._session = _open(self._memory, codes.scales, self._providers)
         if sys.platform != "linux":  # elsewhere the pages stay
             return True
         probe = np.full((1, self._width), LEVELS, dtype=np.float32)
@@ -129,12 +129,12 @@ def _below(value: float) -> np.float32:
     return below
 
 
-def _open(codes: ByteArray, scales: FloatArray) -> InferenceSession:
+def _open(codes: ByteArray, scales: FloatArray, providers: Providers) -> InferenceSession:
     rows, width = codes.shape
     options = quiet_options(threads=1)  # a second one waits for the same memory
     values = [engine().OrtValue.ortvalue_from_numpy(array) for array in (codes.reshape(rows, 1, width), scales)]
     options.add_external_initializers(["codes", "scales"], values)
-    return open_session(scan_model(rows, width), options)
+    return open_session(scan_model(rows, width), options, providers)
 
 
 def _run(session: InferenceSession, numbers: FloatArray) -> FloatArray:
@@ -142,7 +142,7 @@ def _run(session: InferenceSession, numbers: FloatArray) -> FloatArray:
     return result
 
 
-def _is_exact(width: int) -> bool:
+def _is_exact(width: int, providers: Providers = CPU) -> bool:
     """Whether this machine's 8-bit product is exact where its sums are largest, which is where some saturate.
 
     All sums are below 2^24, so float32 holds them, whatever the order.
@@ -152,7 +152,7 @@ def _is_exact(width: int) -> bool:
     codes[0], codes[1], codes[2, ::2], codes[3, 1::2] = 255, 1, 255, 1
     signs = np.where(np.arange(width) % np.array([[1], [2], [3]]) == 0, LEVELS, -LEVELS)
     mixed = np.clip(random.integers(-400, 400, (2, width)), -LEVELS, LEVELS)
-    session = _open(codes, np.ones(len(codes), dtype=np.float32))
+    session = _open(codes, np.ones(len(codes), dtype=np.float32), providers)
     for query in np.concatenate([signs, mixed]):
         exact = (codes.astype(np.int64) - ZERO) @ query
         if not np.array_equal(_run(session, query[None].astype(np.float32)), exact):

@@ -11,10 +11,10 @@ import numpy.typing as npt
 
 from motionrt.errors import GalleryError, InvalidInputError
 from motionrt.retrieval.columns import Columns
-from motionrt.retrieval.where import condition
 
 if TYPE_CHECKING:
     from motionrt.retrieval.gallery import Gallery
+    from motionrt.retrieval.where import Condition
 
 
 @dataclass(frozen=True)
@@ -39,7 +39,7 @@ class Filter:
 
     def __post_init__(self) -> None:
         if self.where is not None:
-            condition(self.where)
+            _read(self.where)
         if self.min_s is not None and self.max_s is not None and not self.min_s <= self.max_s:
             raise InvalidInputError(f"no clip lasts at least {self.min_s:g} s and at most {self.max_s:g} s")
 
@@ -61,7 +61,7 @@ class Filter:
             raise GalleryError(
                 f'this gallery has no attributes yet; bring it up to date: motionrt gallery update "{place}"'
             )
-        fits: npt.NDArray[np.bool_] = condition(self.where)(Columns(gallery.attributes))
+        fits: npt.NDArray[np.bool_] = _read(self.where)(Columns(gallery.attributes))
         return np.logical_and(allowed, fits)
 
     def _fits(self, clip: str, duration_s: float, gallery: Gallery) -> bool:
@@ -71,6 +71,12 @@ class Filter:
             return False
         wanted = {tag.lower() for tag in self.tags}
         return not wanted or wanted <= gallery.tags.get(clip, frozenset())
+
+
+def _read(where: str) -> Condition:
+    from motionrt.retrieval.where import condition  # Python's parser is slow to import, and seldom needed
+
+    return condition(where)
 
 
 EVERYTHING = Filter()

@@ -41,6 +41,14 @@ class Hits(list[Hit]):
         self.unknown_words = unknown_words
 
 
+def grouped(hits: Iterable[Hit]) -> list[list[Hit]]:
+    """Hits by clip: the clip with the best hit first, and of every clip its best first."""
+    groups: dict[str, list[Hit]] = {}
+    for hit in hits:
+        groups.setdefault(hit.id, []).append(hit)
+    return list(groups.values())
+
+
 @dataclass(frozen=True)
 class Search:
     """How to search.

@@ -12,6 +12,7 @@ import numpy as np
 
 from motionrt.errors import GalleryError, InvalidInputError
 from motionrt.formats.motion_pack import MotionPack
+from motionrt.models.engine import Providers
 from motionrt.motion import Motion
 from motionrt.motion.skeleton import FloatArray
 from motionrt.retrieval import layout, store
@@ -41,11 +42,14 @@ class Gallery(Contents):
         mapping: the joint mapping that the files were read with, if any.
         motions: the clips themselves, or the file that holds them, when the gallery carries them.
         folder: where the gallery was opened or saved, ``None`` for one in memory.
+        providers: onnxruntime's execution providers of the 8-bit scan, the preferred one first; None is the CPU.
         neighbours: where the index of approximate search is kept, ``None`` for a gallery in memory.
         attributes: ``(W, A)`` float32, what each window does (:data:`motionrt.motion.attributes.ATTRIBUTES`), ``None``
             in a gallery of an older motionrt until it is updated.
         captions: words that the library carries about its clips.
     """
+
+    providers: Providers | None = None
 
     def __len__(self) -> int:
         return len(self.clips)
@@ -55,15 +59,17 @@ class Gallery(Contents):
         return f"Gallery({len(self)} clips, {len(self.windows)} windows{place})"
 
     @classmethod
-    def open(cls, path: str | Path) -> Gallery:
+    def open(cls, path: str | Path, *, providers: Providers | None = None) -> Gallery:
         """Open a gallery folder, or the gallery of an indexed folder.
+
+        ``providers`` are onnxruntime's execution providers of the 8-bit scan, by default the CPU.
 
         Raises:
             GalleryNotFoundError: there is none; the message gives the command that builds it.
             GalleryError: it is damaged or of another version.
         """
         found = layout.read(store.locate(Path(path)))
-        return cls(**{field.name: getattr(found, field.name) for field in fields(found)})
+        return cls(**{field.name: getattr(found, field.name) for field in fields(found)}, providers=providers)
 
     @classmethod
     def from_motions(
@@ -234,7 +240,7 @@ class Gallery(Contents):
 
     @cached_property
     def _exact(self) -> ExactIndex:
-        return ExactIndex(self.embeddings)
+        return ExactIndex(self.embeddings, providers=self.providers)
 
     @cached_property
     def _approximate(self) -> ApproximateIndex:

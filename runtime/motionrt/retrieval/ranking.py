@@ -23,7 +23,7 @@ class Weights:
     """
 
     embedding: float = 1.0
-    attributes: float = 0.5
+    attributes: float = 0.7
     words: float = 0.6
 
 

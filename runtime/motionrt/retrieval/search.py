@@ -5,13 +5,15 @@ from __future__ import annotations
 import operator
 import threading
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 import numpy.typing as npt
 
 from motionrt.errors import InvalidInputError
+from motionrt.models.engine import Providers, checked_providers
 from motionrt.motion.skeleton import FloatArray
 from motionrt.retrieval.scores import IntArray, scores, top
 
@@ -70,10 +72,12 @@ class ExactIndex:
 
     Args:
         vectors: ``(N, d)`` float32, kept, not copied, when its rows are contiguous; memory-mapped ones, too.
+        providers: onnxruntime's execution providers of the 8-bit scan, by default the CPU.
     """
 
-    def __init__(self, vectors: FloatArray) -> None:
+    def __init__(self, vectors: FloatArray, *, providers: Providers | None = None) -> None:
         self._vectors = np.ascontiguousarray(vectors, dtype=np.float32)
+        self._providers = checked_providers(providers)
         self._asked = 0
         self._coded: CodedScan | None = None
         self._worth_coding = len(self._vectors) >= CODED_FROM
@@ -82,8 +86,10 @@ class ExactIndex:
     def __len__(self) -> int:
         return len(self._vectors)
 
-    def __reduce__(self) -> tuple[type[ExactIndex], tuple[FloatArray]]:
-        return ExactIndex, (self._vectors,)  # copied and pickled without what it made for itself
+    def __reduce__(self) -> tuple[Any, tuple[FloatArray]]:
+        return partial(ExactIndex, providers=self._providers), (
+            self._vectors,
+        )  # copied and pickled without what it made for itself
 
     def prepare(self) -> None:
         """Make the 8-bit copy now, so that no query waits for it; does nothing for a small index."""
@@ -91,7 +97,7 @@ class ExactIndex:
             if self._worth_coding and self._coded is None:
                 from motionrt.retrieval.coded_scan import CodedScan
 
-                self._coded = CodedScan.build(self._vectors)
+                self._coded = CodedScan.build(self._vectors, self._providers)
                 self._worth_coding = self._coded is not None
 
     def nearest(self, query: FloatArray, k: int) -> tuple[IntArray, FloatArray]:

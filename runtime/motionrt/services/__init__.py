@@ -12,10 +12,11 @@ from motionrt._lazy import lazily
 
 if TYPE_CHECKING:
     from motionrt.services.locomotion import Locomotion
+    from motionrt.services.search import Search
     from motionrt.services.synthesis import Synthesis
 
-_HOMES = {"locomotion": ("Locomotion",), "synthesis": ("Synthesis",)}
+_HOMES = {"locomotion": ("Locomotion",), "search": ("Search",), "synthesis": ("Synthesis",)}
 
-__all__ = ["Locomotion", "Synthesis"]
+__all__ = ["Locomotion", "Search", "Synthesis"]
 
 __getattr__ = lazily(__name__, _HOMES)

@@ -47,6 +47,8 @@ class SearchPanel:
 
         def work(_: Told) -> tuple[list[Hit], list[Row]]:
             hits = shop.runtime.retrieve(text, HITS, shop.gallery)
+            if not hits:
+                raise InvalidInputError(hits.notice or "the gallery has no such motion")
             gallery = shop.runtime.gallery(shop.gallery)
             return hits, [_row(hit, gallery.motion(hit)) for hit in hits[:played]]
 

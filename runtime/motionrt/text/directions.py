@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from motionrt.text import lexicon as lex
-from motionrt.text.patterns import compiled, first, has, only, sides, without
+from motionrt.text.patterns import first, has, matches, only, sides, without
 
 Found = dict[str, Any]
 _QUIET = frozenset({"stand", "sit", "lie", "kneel", "squat", "imitate"})
@@ -18,9 +18,9 @@ def turn_of(words: str, _found: Found) -> Found:
     kind = first(text, lex.TURNS)
     if kind is None and has(text, lex.NO_TURN) and side is None:
         return {"turn": "none", "turn_side": None}
-    if kind is None and side and has(text, r"\b(?:face|faces|facing|wheel|go|goes|take|takes|make|makes|hard)\b"):
+    if kind is None and side and has(text, lex.TURN_VERBS):
         kind = "turn"
-    if len(compiled(lex.TURN_WORDS).findall(text)) > 1 and has(text, lex.SEVERAL_CLAUSES + r"|\band\b"):
+    if len(matches(text, lex.TURN_WORDS)) > 1 and has(text, lex.SEVERAL_PARTS):
         kind = None
     return {"turn": kind, "turn_side": side}
 
@@ -66,19 +66,19 @@ def travel_of(words: str, found: Found) -> Found:
 
 def _onward(words: str, found: Found, goes: bool, ahead: bool) -> Found:
     """Forward, to a side that is named without a turn, or nowhere."""
-    aside = None if has(words, lex.BOTH_SIDES) else only(sides(words, [lex.SIDEWAYS_TO, r"\b(?P<side>left|right)ward"]))
+    aside = None if has(words, lex.BOTH_SIDES) else only(sides(words, [lex.SIDEWAYS_TO, lex.WARD]))
     if not ahead and aside and found["turn"] is None and found.get("path") is None:
         return {"steps": "along", "turn_side": aside} if goes else {"travel": aside}
     if goes and found.get("path") != "spin":
         return {"travel": "forward", "steps": "along"}
-    if ahead and has(words, lex.JUMPS + r"|\bstep\w*|\bmov\w*|\blung\w*|\bcrawl"):
+    if ahead and has(words, lex.MOVES_ON):
         return {"travel": "forward"}
-    quiet = found["action"] in lex.IN_PLACE_ACTIONS and not has(words, r"\b(?:step|mov|turn|approach|spin)\w*")
+    quiet = found["action"] in lex.IN_PLACE_ACTIONS and not has(words, lex.STEPS_OR_TURNS)
     return {"travel": "none"} if quiet and not has(words, lex.SEVERAL_CLAUSES) else {}
 
 
 def _back(words: str, found: Found, _goes: bool) -> Found:
-    returns = found["turn"] is not None or len(compiled(lex.GOES).findall(words)) > 1
+    returns = found["turn"] is not None or len(matches(words, lex.GOES)) > 1
     return {"steps": "along"} if returns and not has(words, lex.BACKWARD) else {"travel": "backward", "steps": "along"}
 
 
@@ -87,9 +87,9 @@ def _nowhere(_words: str, _found: Found, _goes: bool) -> Found:
 
 
 def _aside(words: str, _found: Found, goes: bool) -> Found:
-    if goes and has(words, lex.SEVERAL_CLAUSES + r"|\band\b"):
+    if goes and has(words, lex.SEVERAL_PARTS):
         return {"steps": "along"}
-    named = set() if has(words, lex.BOTH_SIDES) else sides(words, [r"\b(?P<side>left|right)(?:wards?)?\b"])
+    named = set() if has(words, lex.BOTH_SIDES) else sides(words, [lex.ANY_SIDE])
     return {"travel": only(named) or "sideways", "steps": "along", "turn_side": None}
 
 

@@ -9,20 +9,18 @@ from motionrt.text.patterns import first, has, only, sides
 
 Found = dict[str, Any]
 _OTHER = {"left": "right", "right": "left"}
-_LEG_ACTS = r"\b(?:kick|hop|lunge|stomp|balanc)\w*"
-_ARM_ACTS = r"\b(?:{armact}|{hand})\b|punch|throw|wav|rais"
 
 
 def arms_of(words: str, _found: Found) -> Found:
     """``arm`` and ``arms_up``."""
-    patterns = lex.ARM_SIDE if not has(words, _LEG_ACTS) or has(words, _ARM_ACTS) else lex.ARM_SIDE[:1]
+    patterns = lex.ARM_SIDE if not has(words, lex.LEG_ACTS) or has(words, lex.ARM_ACTS) else lex.ARM_SIDE[:1]
     named = sides(words, patterns)
     arm = only(named) or ("both" if named or has(words, lex.BOTH_ARMS) else None)
     up = first(words, lex.ARMS_UP)
-    if up == "both" and only(named) and not has(words, r"both|two|arms|hands"):
+    if up == "both" and only(named) and not has(words, lex.PAIR):
         up = "one"
     if up == "one":
-        if not named and has(words, r"both|two|arms wav|wav\w* (?:\w+ )?(?:arms|hands)"):
+        if not named and has(words, lex.PAIR_WAVES):
             return {"arm": "both", "arms_up": "both"}
         up = arm if arm in _OTHER else "both" if len(named) == 2 else "one"
         arm = arm if named else None

@@ -9,7 +9,7 @@ from motionrt.errors import InvalidInputError
 from motionrt.text import lexicon as lex
 from motionrt.text.directions import path_of, speed_of, travel_of, turn_of
 from motionrt.text.limbs import arms_of, feet_of, hands_of
-from motionrt.text.patterns import compiled, has, plain, without
+from motionrt.text.patterns import compiled, has, may_match, plain, without
 from motionrt.text.postures import postures_of
 from motionrt.text.query import TextAttributes
 from motionrt.text.times import jumps_of, repeats_of
@@ -69,6 +69,10 @@ def _moves(found: dict[str, Any]) -> dict[str, Any]:
 
 def _words(words: str) -> tuple[str, ...]:
     """Words and phrases that some class of action or direction knows."""
-    patterns = [*lex.ACTIONS.values(), *(p for _, p in lex.TRAVELS), *(p for _, p in lex.SPEEDS), r"\b(?:left|right)\b"]
-    found = (match.group() for pattern in patterns if (match := compiled(pattern).search(words)))
+    patterns = [*lex.ACTIONS.values(), *(p for _, p in lex.TRAVELS), *(p for _, p in lex.SPEEDS), lex.ANY_SIDE]
+    found = (
+        match.group()
+        for pattern in patterns
+        if may_match(words, pattern) and (match := compiled(pattern).search(words))
+    )
     return tuple(dict.fromkeys(found))

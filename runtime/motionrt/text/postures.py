@@ -6,12 +6,11 @@ from typing import Any
 
 from motionrt.motion.attributes import POSTURES
 from motionrt.text import lexicon as lex
-from motionrt.text.patterns import compiled, has, without
+from motionrt.text.patterns import has, matches, without
 
 Found = dict[str, Any]
 _UPRIGHT = frozenset({"walk", "run", "jog", "march", "wave", "turn", "clap", "kick", "punch", "throw"})
 _RISE = "rise"
-_FROM = compiled(r"\b(?:from|off|out)\b")  # one rises from what is named behind it
 
 
 def postures_of(words: str, found: Found) -> Found:
@@ -31,14 +30,14 @@ def postures_of(words: str, found: Found) -> Found:
 def _events(words: str) -> list[tuple[int, str]]:
     """Postures and risings in the order in which they happen; what somebody rises from stands before the rising."""
     found: list[tuple[int, str]] = []
-    rises = [match.span() for match in compiled(r"\b{rise}").finditer(words)]
+    rises = [match.span() for match in matches(words, lex.RISES)]
     for name, pattern in lex.POSTURE_STATES:
-        for match in compiled(pattern).finditer(words):
+        for match in matches(words, pattern):
             place = match.start()
             if name == "standing" and any(start <= place < end for start, end in rises):
                 continue
             risen = (
-                start for start, end in rises if end <= place <= end + 30 and _FROM.search(words[end - 5 : place + 5])
+                start for start, end in rises if end <= place <= end + 30 and has(words[end - 5 : place + 5], lex.FROM)
             )
             place = next(risen, place + 1) - 1
             found.append((place, name))
@@ -73,11 +72,7 @@ def _start(words: str, events: list[tuple[int, str]]) -> str | None:
     walked = any(match.start() < place for match in _walks(words))
     if name == _RISE:
         return None
-    if (
-        name == "standing"
-        or walked
-        or any(m.start() <= place < m.end() for m in compiled(lex.DOWN_WORDS).finditer(words))
-    ):
+    if name == "standing" or walked or any(m.start() <= place < m.end() for m in matches(words, lex.DOWN_WORDS)):
         return "standing"
     return None if name in lex.DIP_POSTURES else name
 
@@ -90,7 +85,7 @@ def _end(words: str, events: list[tuple[int, str]]) -> str | None:
 
 
 def _walks(words: str) -> list[Any]:
-    return [match for match in compiled(lex.GOES).finditer(words) if not match.group().startswith("crawl")]
+    return [match for match in matches(words, lex.GOES) if not match.group().startswith("crawl")]
 
 
 def _level(start: str | None, end: str | None) -> str | None:

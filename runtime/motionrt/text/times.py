@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from motionrt.text import lexicon as lex
-from motionrt.text.patterns import compiled, has
+from motionrt.text.patterns import has, matches
 
 Found = dict[str, Any]
 SEVERAL = -1
@@ -18,9 +18,7 @@ def jumps_of(words: str, found: Found) -> Found:
     count = _count(words)
     if count is not None:
         return {"jumps": count}
-    many = has(words, lex.MANY) or has(
-        words, r"hopping|hops|jacks?\b|bounding|rope|jump\w* (?:around|on the spot|along)\b"
-    )
+    many = has(words, lex.MANY) or has(words, lex.MANY_JUMPS)
     return {"jumps": SEVERAL if many else 1}
 
 
@@ -33,8 +31,9 @@ def repeats_of(words: str, _found: Found) -> Found:
 
 
 def _count(words: str) -> int | None:
-    match = compiled(lex.TIMES).search(words)
-    if match is None:
+    found = matches(words, lex.TIMES)
+    if not found:
         return None
+    match = found[0]
     word = match.group("w") or match.group("n")
     return lex.NUMBERS[word] if word in lex.NUMBERS else int(word)

@@ -11,15 +11,15 @@ import pytest
 from fake_embedder import FakeEmbedder
 from motions import random_motion, walking
 
-from motionrt import runtime as runtime_module
 from motionrt.cli import main
+from motionrt.services import search as search_module
 
 Command = Callable[..., int]
 
 
 @pytest.fixture(autouse=True)
 def fake_models(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(runtime_module, "TextMotionModel", lambda *_, **__: FakeEmbedder())
+    monkeypatch.setattr(search_module, "TextMotionModel", lambda *_, **__: FakeEmbedder())
 
 
 @pytest.fixture

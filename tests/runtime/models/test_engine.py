@@ -3,16 +3,22 @@
 from __future__ import annotations
 
 import sys
+from pathlib import Path
 from types import ModuleType
 from typing import Any
 
+import numpy as np
 import pytest
+from fake_embedder import FakeEmbedder
+from motions import walking
 from tiny_models import TINY
 
 from motionrt import Runtime
 from motionrt.errors import InvalidInputError, MissingDependencyError
 from motionrt.models import Sessions
-from motionrt.models.engine import CPU, checked_providers
+from motionrt.models.engine import CPU, checked_providers, open_session
+from motionrt.retrieval import Gallery, coded_scan
+from motionrt.retrieval.search import CODED_FROM, ExactIndex
 
 GPU = ["StandInExecutionProvider", ("CPUExecutionProvider", {"arena_extend_strategy": "kSameAsRequested"})]
 
@@ -49,6 +55,25 @@ def test_the_runtime_hands_its_providers_to_all_models(stand_in: list[Any]) -> N
     runtime.sessions.session("tmr_text")
     runtime.model.sessions.session("tmr_motion")
     assert stand_in == [GPU, GPU]
+
+
+def test_the_scan_of_a_large_gallery_runs_on_the_same_providers(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[Any] = []
+
+    def noted(model: object, options: object, providers: Any) -> Any:
+        asked.append(providers)
+        return open_session(model, options, CPU)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(coded_scan, "open_session", noted)
+    vectors = np.random.default_rng(0).normal(size=(CODED_FROM, 32)).astype(np.float32)
+    ExactIndex(vectors, providers=GPU).prepare()
+    assert asked == [tuple(GPU)] * 2  # the check that its products are exact, and the scan
+
+
+def test_a_gallery_hands_its_providers_to_the_scan(tmp_path: Path) -> None:
+    embedder = FakeEmbedder()
+    Gallery.from_motions([walking(30)], ["walk"], embedder).save(tmp_path)
+    assert Gallery.open(tmp_path, providers=GPU).providers == GPU
 
 
 def test_the_cpu_is_the_default(stand_in: list[Any]) -> None:

@@ -209,7 +209,7 @@ def test_an_index_is_coded_when_it_is_asked_often_enough(
     count: int, asked_before: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     built: list[int] = []
-    monkeypatch.setattr(CodedScan, "build", lambda vectors: built.append(len(vectors)))
+    monkeypatch.setattr(CodedScan, "build", lambda vectors, _: built.append(len(vectors)))
     index = ExactIndex(np.eye(count, 8, dtype=np.float32))
     for _ in range(asked_before):
         index.nearest(np.ones(8, dtype=np.float32), 1)
@@ -220,7 +220,7 @@ def test_an_index_is_coded_when_it_is_asked_often_enough(
 
 
 def test_a_small_index_is_never_coded(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(CodedScan, "build", lambda _: pytest.fail("coded"))
+    monkeypatch.setattr(CodedScan, "build", lambda *_: pytest.fail("coded"))
     index = ExactIndex(np.eye(CODED_FROM - 1, 8, dtype=np.float32))
     index.prepare()
     for _ in range(40):
@@ -246,7 +246,7 @@ def test_a_session_that_reads_the_codes_themselves_keeps_them(monkeypatch: pytes
     class Reading:
         """Scores straight from the memory that it was given, as an onnxruntime without rearranged weights would."""
 
-        def __init__(self, codes: np.ndarray, scales: np.ndarray) -> None:
+        def __init__(self, codes: np.ndarray, scales: np.ndarray, _: object) -> None:
             self.codes, self.scales = codes, scales
 
         def run(self, _: None, feeds: dict[str, np.ndarray]) -> list[np.ndarray]:

@@ -22,6 +22,7 @@ from motionrt.retrieval import (
     build_gallery,
     duplicates,
     find,
+    grouped,
     similar,
     update_gallery,
 )
@@ -141,6 +142,14 @@ def test_conditions_select_as_numpy_does(text: str, expected: object) -> None:
 def test_what_is_no_condition_is_refused(text: str) -> None:
     with pytest.raises(InvalidInputError):
         condition(text)
+
+
+def test_hits_are_grouped_by_clip_the_best_clip_first(gallery: Gallery) -> None:
+    hits = find(gallery, "walks", EMBEDDER.embed_text(["walks"])[0], Search(per_clip=False))
+    groups = grouped([*hits, *hits[::-1]])
+    assert [group[0].id for group in groups] == list(dict.fromkeys(hit.id for hit in hits))
+    assert all({hit.id for hit in group} == {group[0].id} for group in groups)
+    assert sum(map(len, groups)) == 2 * len(hits)
 
 
 def test_durations_that_no_clip_has_are_refused() -> None:

@@ -81,8 +81,8 @@ def test_parsing_takes_about_a_millisecond() -> None:
     best = 1.0
     for _ in range(3):
         _parsed.cache_clear()
-        started = time.perf_counter()
+        started = time.process_time()
         for text in texts:
             parse_query(text)
-        best = min(best, (time.perf_counter() - started) / len(texts))
-    assert best < 3e-3
+        best = min(best, (time.process_time() - started) / len(texts))
+    assert best < 3e-3  # 0.2 ms on an idle core

@@ -74,6 +74,7 @@ def _texts(clip: Clip) -> list[str]:
 
 
 def main() -> None:
+    """The command line."""
     parser = argparse.ArgumentParser(description="Compute the features of a captioned corpus once.")
     parser.add_argument("corpus", choices=["cmu", *sorted(AMASS_READERS)])
     parser.add_argument("folder", help="the data set's folder of annotations (and, for cmu, motions)")

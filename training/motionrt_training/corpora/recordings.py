@@ -96,6 +96,7 @@ def load_recordings(path: str | Path) -> Recordings:
 
 
 def main() -> None:
+    """The command line."""
     parser = argparse.ArgumentParser(description="Read, ground, resample and pack every recording of a mocap folder.")
     parser.add_argument("folder", help="holds cmu/ (with captions.jsonl) and locomotion/")
     parser.add_argument("-o", "--out", required=True, help="the .npz to write; its .json stands beside it")

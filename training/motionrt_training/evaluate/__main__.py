@@ -22,6 +22,7 @@ LONG_WINDOWS = (100, 120, 140, 160, 180, 200)
 
 
 def main() -> None:
+    """The command line."""
     args = _arguments()
     pairs = read_pairs(args.corpus, "test")
     model = TextMotionModel(args.models)

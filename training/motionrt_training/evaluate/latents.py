@@ -43,17 +43,20 @@ class TorchLatents:
 
     @torch.inference_mode()
     def text(self, *texts: str) -> tuple[FloatArray, FloatArray]:
+        """Mean and log variance of what texts mean, in one sentence where they are several."""
         tokens = torch.cat([self._tokens(text) for text in texts], dim=1)  # (1, T, 384)
         found = self._model.encode_text(tokens, torch.ones(tokens.shape[:2], dtype=torch.bool))
         return found.mu[0].numpy(), (0.5 * found.logvar[0]).exp().numpy()
 
     @torch.inference_mode()
     def motion(self, motion: Motion) -> FloatArray:
+        """The latent of a motion."""
         x = torch.from_numpy(sinc135.encode(motion))[None]
         return np.asarray(self._model.encode_motion(x, torch.ones(x.shape[:2], dtype=torch.bool)).mu[0].numpy())
 
     @torch.inference_mode()
     def decode(self, latent: FloatArray, frames: int) -> Motion:
+        """The motion of a latent, so many frames at 30 fps."""
         mask = torch.ones((1, frames), dtype=torch.bool)
         rows = torch.from_numpy(np.ascontiguousarray(latent, np.float32))[None]
         return sinc135.decode(self._model.decode(rows, mask)[0].numpy())
@@ -66,6 +69,7 @@ class ExportedLatents:
         self._sentences, self._model = SentenceEncoder(sessions), TemosModel(sessions, variant)
 
     def text(self, *texts: str) -> tuple[FloatArray, FloatArray]:
+        """Mean and log variance of what texts mean, in one sentence where they are several."""
         encoded = [self._sentences.encode(text) for text in texts]
         tokens = np.concatenate([one.token_features for one in encoded], axis=1)
         mask = np.ones(tokens.shape[:2], np.int64)
@@ -73,9 +77,11 @@ class ExportedLatents:
         return found.mu[0], np.asarray(np.exp(found.logvar[0] / 2))
 
     def motion(self, motion: Motion) -> FloatArray:
+        """The latent of a motion."""
         return np.asarray(self._model.encode_motion(sinc135.encode(motion)[None]).mu[0])
 
     def decode(self, latent: FloatArray, frames: int) -> Motion:
+        """The motion of a latent, so many frames at 30 fps."""
         return sinc135.decode(self._model.decode(latent[None], np.ones((1, frames), bool))[0])
 
 

@@ -33,11 +33,14 @@ class Maker(Protocol):
 
     def generate(
         self, text: str, *, seconds: float, seed: int, n: int, sampler: str, foot_lock: bool
-    ) -> Sequence[Motion]: ...
+    ) -> Sequence[Motion]:
+        """Motions of texts; see :meth:`motionrt.Runtime.generate`."""
 
-    def embed_text(self, text: Sequence[str]) -> FloatArray: ...
+    def embed_text(self, text: Sequence[str]) -> FloatArray:
+        """Unit embeddings of texts."""
 
-    def embed_motion(self, motion: Sequence[Motion]) -> FloatArray: ...
+    def embed_motion(self, motion: Sequence[Motion]) -> FloatArray:
+        """Unit embeddings of motions."""
 
 
 @dataclass(frozen=True)

@@ -38,6 +38,7 @@ class Dropout(nn.Module):
         self.dropped = min(255, round(rate * 256))  # byte values below this drop their element
 
     def forward(self, x: Tensor) -> Tensor:
+        """Tokens ``(B, T, d)`` to tokens of the same shape."""
         if not self.training or self.dropped == 0:
             return x
         count = x.numel()
@@ -89,6 +90,7 @@ class FeedForward(nn.Module):
         self.up, self.down, self.drop = nn.Linear(d, ff), nn.Linear(ff, d), Dropout(dropout)
 
     def forward(self, x: Tensor) -> Tensor:
+        """Tokens ``(B, T, d)`` to tokens of the same shape."""
         return self.down(self.drop(F.gelu(self.up(x))))
 
 
@@ -103,6 +105,7 @@ class EncoderLayer(nn.Module):
         self.drop = Dropout(dropout)
 
     def forward(self, x: Tensor, bias: Tensor) -> Tensor:
+        """Tokens ``(B, T, d)`` to tokens of the same shape."""
         x = self.norm1(x + self.drop(self.attention(x, bias)))
         return self.norm2(x + self.drop(self.feed(x)))
 
@@ -131,6 +134,7 @@ class DecoderLayer(nn.Module):
         self.drop = Dropout(dropout)
 
     def forward(self, x: Tensor, latent: Tensor, bias: Tensor) -> Tensor:
+        """Tokens ``(B, T, d)`` to tokens of the same shape."""
         x = self.norm1(x + self.drop(self.attention(x, bias)))
         x = self.norm2(x + self.drop(self.cross(latent)))
         return self.norm3(x + self.drop(self.feed(x)))
