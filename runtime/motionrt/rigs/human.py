@@ -80,7 +80,7 @@ def _by_proportions(motion: RigPose) -> str | None:
     sides = ("left", "right")
     thigh, shank = (sum(length(s, *ends) for s in sides) for ends in (("hip", "knee"), ("knee", "ankle")))
     upper, lower = (sum(length(s, *ends) for s in sides) for ends in (("shoulder", "elbow"), ("elbow", "wrist")))
-    if min(thigh, shank) * _NO_BONE < max(thigh, shank):
+    if min(thigh, shank) * _NO_BONE <= max(thigh, shank):
         return None  # said better by what needs the bone
     trunk = 2 * float(np.median(np.linalg.norm(motion.trunk(), axis=-1)))
     leg = max(thigh + shank, 1e-12)
