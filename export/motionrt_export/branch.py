@@ -20,10 +20,10 @@ def with_switch(model: onnx.ModelProto, spec: GraphSpec) -> onnx.ModelProto:
 
 
 def switched(model: onnx.ModelProto, switch: str, outputs: Collection[str]) -> onnx.ModelProto:
-    """A copy with an input `switch`, true unless it is given: where it is false, `outputs` come without rows.
+    """A copy with one more input, the bool `switch`: where it is false, `outputs` come without rows.
 
-    An input with a default is none that a session asks for, so nobody has to know of it. onnxruntime computes a whole
-    graph whatever outputs are fetched, except for a branch that is not taken.
+    It has no default: onnxruntime warns of an initializer that is an input as well. onnxruntime computes a whole graph
+    whatever outputs are fetched, except for a branch that is not taken.
     """
     result, graph = onnx.ModelProto(), model.graph
     result.CopyFrom(model)
@@ -39,7 +39,7 @@ def switched(model: onnx.ModelProto, switch: str, outputs: Collection[str]) -> o
     }
     choose = helper.make_node("If", [switch], [output.name for output in wanted], name=switch, **branches)
     _set(result.graph.node, [*kept, choose])
-    _set(result.graph.initializer, [*shared, numpy_helper.from_array(np.array(True), switch)])
+    _set(result.graph.initializer, shared)
     result.graph.input.append(helper.make_tensor_value_info(switch, TensorProto.BOOL, []))
     return result
 

@@ -100,7 +100,7 @@ def model_entry(
         "recipe": dict(recipe),
         "feature_statistics": feature_statistics,
         **({"statistics": list(statistics)} if statistics else {}),
-        "inputs": [tensor_entry(tensor) for tensor in spec.inputs],
+        "inputs": [tensor_entry(tensor) for tensor in spec.taken],
         "outputs": [tensor_entry(tensor) for tensor in spec.outputs],
         **({} if tokenizer is None else {"tokenizer": tokenizer}),
         "default_variant": default_variant,

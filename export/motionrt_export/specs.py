@@ -32,10 +32,15 @@ class TensorSpec:
 
 @dataclass(frozen=True)
 class Switch:
-    """An input that need not be given: a bool, true by default; where it is false, `outputs` come without rows."""
+    """An input that is a bool: where it is false, `outputs` come without rows; the runtime gives true unless told."""
 
     name: str
     outputs: tuple[str, ...]
+
+    @property
+    def tensor(self) -> TensorSpec:
+        """The input as the manifest describes it."""
+        return TensorSpec(self.name, "bool", (), "1", f"true; false leaves out {' and '.join(self.outputs)}")
 
 
 @dataclass(frozen=True)
@@ -53,6 +58,11 @@ class GraphSpec:
     mask: str | None = None
     embeddings: tuple[str, ...] = field(default=())
     switch: Switch | None = None
+
+    @property
+    def taken(self) -> tuple[TensorSpec, ...]:
+        """All that a file takes: the inputs, and the switch behind them."""
+        return self.inputs if self.switch is None else (*self.inputs, self.switch.tensor)
 
     def dynamic_axes(self) -> dict[str, dict[int, str]]:
         """What `torch.onnx.export` wants."""

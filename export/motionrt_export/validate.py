@@ -10,6 +10,7 @@ import numpy as np
 import onnx
 import onnxruntime as ort
 
+from motionrt.models.sessions import switches_on
 from motionrt_export.examples import Examples, Feeds
 from motionrt_export.measures import Figures, beyond, measure, worst
 from motionrt_export.references import Reference
@@ -78,13 +79,15 @@ def validate(subject: Subject) -> Figures:
 
 
 def check_signature(subject: Subject) -> None:
-    """Names, types and axes as the file declares them; inputs that have a default are switches."""
+    """Names, types and axes as the file declares them; no input has a default."""
     graph = onnx.load_from_string(subject.content).graph
     stored = {tensor.name for tensor in graph.initializer}
-    switches = [value.name for value in graph.input if value.name in stored]
-    _require_equal(subject, "switches", switches, [subject.spec.switch.name] if subject.spec.switch else [])
+    _require_equal(subject, "inputs with a default", [value.name for value in graph.input if value.name in stored], [])
+    wanted_switches = [subject.spec.switch.name] if subject.spec.switch else []
+    switches = [value.name for value in graph.input if value.name in wanted_switches]
+    _require_equal(subject, "switches", switches, wanted_switches)
     for side, declared, wanted in (
-        ("inputs", [value for value in graph.input if value.name not in stored], subject.spec.inputs),
+        ("inputs", [value for value in graph.input if value.name not in switches], subject.spec.inputs),
         ("outputs", graph.output, subject.spec.outputs),
     ):
         names = [value.name for value in declared]
@@ -132,9 +135,9 @@ def open_session(content: bytes) -> ort.InferenceSession:
 
 
 def run(session: ort.InferenceSession, feeds: Feeds) -> dict[str, Array]:
-    """All outputs by name."""
+    """All outputs by name; switches that are not given are on."""
     names = [output.name for output in session.get_outputs()]
-    return dict(zip(names, session.run(names, feeds), strict=True))
+    return dict(zip(names, session.run(names, {**switches_on(session), **feeds}), strict=True))
 
 
 def _cases(subject: Subject) -> Iterator[tuple[Feeds, int]]:

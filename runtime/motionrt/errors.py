@@ -5,9 +5,19 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
+LONGEST_MESSAGE = 2000
+"""Characters of a message; what is longer, because a file put it there, is cut in its middle."""
+
 
 class MotionRTError(Exception):
     """Base of everything that motionrt raises on purpose; ``except MotionRTError`` catches it all."""
+
+    def __str__(self) -> str:
+        text = super().__str__()
+        if len(text) <= LONGEST_MESSAGE:
+            return text
+        half = LONGEST_MESSAGE // 2 - 10
+        return f"{text[:half]} [...] {text[-half:]}"
 
 
 class InvalidInputError(MotionRTError, ValueError):

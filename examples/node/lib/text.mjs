@@ -25,6 +25,7 @@ export class TextEncoder {
     const shape = [1, ids.length];
     const feeds = {
       input_ids: new Tensor("int64", ids, shape),
+      embed: new Tensor("bool", [true], []),
       attention_mask: new Tensor("int64", BigInt64Array.from(ids, () => 1n), shape),
     };
     const { embedding } = await this.session.run(feeds, ["embedding"]);

@@ -1,13 +1,14 @@
 """The command ``motionrt``: thin, no logic, and what it needs is imported only by the command that runs.
 
-Exit codes: 0 done, 1 an error (one line on stderr), 2 wrong usage, 3 a gallery was made but some files were
-    skipped,
-130 interrupted. Results go to stdout, everything else to stderr.
+Exit codes: 0 done, 1 an error (one line on stderr), 2 wrong usage, 3 a gallery was made but some files were skipped,
+70 a mistake of the program itself (MOTIONRT_TRACEBACK=1 shows where), 130 interrupted. Results go to stdout, everything
+else to stderr.
 """
 
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 from collections.abc import Sequence
 
@@ -36,7 +37,8 @@ from motionrt.cli.console import close_quietly, prepare_streams, say
 from motionrt.cli.reading import in_options, shown_warnings
 from motionrt.errors import MotionRTError
 
-ERROR, INTERRUPTED, BROKEN_PIPE = 1, 130, 141
+ERROR, MISTAKE, INTERRUPTED, BROKEN_PIPE = 1, 70, 130, 141
+TRACEBACK = "MOTIONRT_TRACEBACK"
 _COMMANDS = (
     retrieve,
     similar,
@@ -78,7 +80,22 @@ def main(argv: Sequence[str] | None = None) -> int:
         return BROKEN_PIPE
     except KeyboardInterrupt:
         return INTERRUPTED
+    except Exception as error:
+        if os.environ.get(TRACEBACK):
+            raise
+        return _explained(error)
     return code
+
+
+def _explained(error: Exception) -> int:
+    """One line about what no command expects: a full disk, or a mistake in the program."""
+    words = " ".join(str(error).split())[:300]
+    if isinstance(error, OSError):
+        say(f"motionrt: error: {error.filename or 'the output'}: {error.strerror or words}")
+        return ERROR
+    say(f"motionrt: a mistake of this program, please report it: {type(error).__name__}: {words}")
+    say(f"motionrt: {TRACEBACK}=1 shows where it happened")
+    return MISTAKE
 
 
 def _parser() -> argparse.ArgumentParser:

@@ -24,8 +24,8 @@ def close_quietly() -> None:
 
 
 def say(message: str) -> None:
-    """A line for people, on stderr."""
-    print(message, file=sys.stderr)
+    """A line for people, on stderr; control characters of files and their names do nothing to the terminal."""
+    print("".join(c if c.isprintable() or c in "\t\n" else ascii(c)[1:-1] for c in message), file=sys.stderr)
 
 
 def print_json(value: Any) -> None:

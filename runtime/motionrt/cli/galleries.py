@@ -18,6 +18,8 @@ BUILD = """index a folder of motion files (.bvh, .amc, .npz, .glb), with all fol
 Files that cannot be read are listed with the reason, and the exit code is then 3."""
 UPDATE = """bring a gallery up to date with its folder
 Only new and changed files are read, and files that are gone are dropped."""
+VERIFY = """read a gallery in full and check every file of it against its checksum
+The exit code is 1 where something is damaged; the message names it."""
 DUPLICATES = """list the clips of a gallery that show the same motion: equal files, or as long and alike
 Mirror images are not the same."""
 INFO = """show what a gallery holds, and check its files for damage"""
@@ -38,6 +40,8 @@ def add(commands: Any) -> None:
     update.add_argument("gallery", type=Path, help="a gallery, or the folder that was indexed")
     for parser in (build, update):
         parser.add_argument("--jobs", type=int, metavar="N", help="processes, of one thread each (default: at most 2)")
+    verify = command(parts, "verify", run_verify, VERIFY)
+    verify.add_argument("gallery", type=Path, help="a gallery, or the folder that was indexed")
     info = command(parts, "info", run_info, INFO)
     info.add_argument("gallery", type=Path, help="a gallery, or the folder that was indexed")
     for parser in (build, update):
@@ -45,7 +49,7 @@ def add(commands: Any) -> None:
     same = command(parts, "duplicates", run_duplicates, DUPLICATES)
     same.add_argument("gallery", type=Path, help="a gallery, or the folder that was indexed")
     same.add_argument("--cosine", type=float, default=0.985, metavar="C", help="how alike, at most 1 (default: 0.985)")
-    for parser in (build, update, info, same):
+    for parser in (build, update, verify, info, same):
         add_json(parser)
 
 
@@ -88,6 +92,19 @@ def run_info(arguments: argparse.Namespace) -> int:
     print(f"skipped  {len(gallery.skipped)}")
     for skipped in gallery.skipped:
         print(f"  {skipped.path}: {skipped.reason}")
+    return 0
+
+
+def run_verify(arguments: argparse.Namespace) -> int:
+    """``gallery verify``."""
+    from motionrt.retrieval import Gallery
+
+    gallery = Gallery.open(arguments.gallery)
+    gallery.verify()
+    if arguments.json:
+        print_json({**describe(gallery), "whole": True})
+    else:
+        print(f"{gallery.folder}: whole ({len(gallery)} clips, {len(gallery.windows)} windows)")
     return 0
 
 

@@ -8,9 +8,8 @@ from typing import Any
 
 from motionrt.cli.console import say
 from motionrt.cli.options import add_models, command, runtime
-from motionrt.cli.view import add_page, serve
+from motionrt.cli.view import LOOPBACK, add_page, serve
 
-LOOPBACK = ("127.0.0.1", "localhost", "::1")
 HELP = """search, make and direct motion in the browser
 Type a text and watch the best hits; generate; lay one motion over another; click a path and keypoints into a scene and
 let a character perform; export. Keys: P plays and pauses, J and K step, F frames everything, Z takes a click back.

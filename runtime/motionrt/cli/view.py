@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any
 from motionrt.cli.console import say
 from motionrt.cli.options import command
 
+LOOPBACK = ("127.0.0.1", "localhost", "::1")
+
 if TYPE_CHECKING:
     from motionrt.studio.serving import Page
     from motionrt.studio.windows import Show
@@ -58,6 +60,11 @@ def shown(arguments: argparse.Namespace) -> Show:
 def serve(page: Page, arguments: argparse.Namespace) -> int:
     """Say where the page is, open it, and wait for Ctrl-C."""
     say(f"{page.url} (Ctrl-C ends it)")
+    if arguments.host not in LOOPBACK:
+        say(
+            f"motionrt: {arguments.host} serves others, too: whoever reaches this machine and has the address with its "
+            "token can use the page, without encryption. Give the address to nobody else"
+        )
     if not arguments.no_browser:
         import webbrowser
 

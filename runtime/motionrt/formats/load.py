@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import replace
@@ -19,9 +18,11 @@ from motionrt.formats.numbers import read_npy
 from motionrt.formats.smpl import read_npz, write_npz
 from motionrt.formats.text import require_file
 from motionrt.formats.units import units_per_metre
+from motionrt.motion.checks import checked_fps
 from motionrt.motion.motion import Motion
 from motionrt.rigs.clip import RigClip
 from motionrt.rigs.retarget_in import to_smpl24
+from motionrt.untrusted.files import as_path
 
 MOTION_SUFFIXES = (".bvh", ".amc", ".npz", ".npy", ".fbx", *GLTF_SUFFIXES)
 """What :func:`load_motion` reads, in any mixture of upper and lower case."""
@@ -59,10 +60,10 @@ def load_rig(
         FormatError: the file cannot be read; names file, line (where there are lines) and reason.
         InvalidInputError: the suffix is unknown, or ``fps`` is not positive.
     """
-    path = Path(path)
+    path = as_path(path)
     require_file(path)
-    if fps is not None and not (math.isfinite(fps) and fps > 0):
-        raise InvalidInputError(f"fps must be a positive number, not {fps}")
+    if fps is not None:
+        fps = checked_fps(fps)
     if up not in {None, "y", "z"}:
         raise InvalidInputError(f"up must be 'y' or 'z', not '{up}'")
     suffix = _suffix(path, MOTION_SUFFIXES, "read")
@@ -128,7 +129,7 @@ def save_motion(motion: Motion, path: str | Path, *, units: str | None = None, t
     Raises:
         InvalidInputError: another suffix, options that the format does not have, or the file cannot be written.
     """
-    path = Path(path)
+    path = as_path(path)
     suffix = _suffix(path, WRITABLE_SUFFIXES, "written")
     if suffix == ".bvh":
         return write_bvh(motion, path, scale=units_per_metre(units or "cm"), t_pose=t_pose)

@@ -10,7 +10,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, Any
-from zipfile import BadZipFile
 
 import numpy as np
 import numpy.typing as npt
@@ -19,8 +18,10 @@ from motionrt.errors import FormatError, InvalidInputError
 from motionrt.motion import SMPL24, Motion
 from motionrt.motion.rotations import axis_angle_to_matrix, matrix_to_axis_angle
 from motionrt.motion.skeleton import FloatArray
+from motionrt.untrusted.npz import read_arrays
 
 _STEP = np.pi / 32767
+_KINDS = {"steps": ("i", 2, (24, 3)), "roots": ("f", 4, (3,)), "starts": ("i", 8, ()), "fps": ("f", 8, ())}
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,13 +70,28 @@ class MotionPack:
     def read(cls, path: Path) -> MotionPack:
         """Read an ``.npz``; FormatError when it is missing or damaged."""
         try:
-            with np.load(path, allow_pickle=False) as data:
-                pack = cls(_summed(data["steps"]), data["roots"], data["starts"], data["fps"])
-        except (OSError, ValueError, KeyError, EOFError, BadZipFile) as error:
-            raise FormatError(path, f"is damaged ({error})") from error
-        if len(pack.turns) != len(pack.roots) or pack.starts[-1:].tolist() != [len(pack.roots)]:
-            raise FormatError(path, "is damaged (frame counts differ)")
+            arrays, _ = read_arrays(path, lambda reason, line: FormatError(path, reason, line), tuple(_KINDS))
+        except FileNotFoundError as error:
+            raise FormatError(path, "is missing") from error
+        for name, (kind, size, shape) in _KINDS.items():
+            array = arrays.get(name)
+            if array is None or array.dtype.kind != kind or array.dtype.itemsize != size or array.shape[1:] != shape:
+                raise FormatError(path, f"is damaged ('{name}' is missing or of another kind)")
+            if array.ndim != 1 + len(shape):
+                raise FormatError(path, f"is damaged ('{name}' has the shape {array.shape})")
+        pack = cls(_summed(arrays["steps"]), arrays["roots"], arrays["starts"], arrays["fps"])
+        pack._check(path)
         return pack
+
+    def _check(self, path: Path) -> None:
+        """FormatError unless every motion has frames, and every frame is of one motion."""
+        frames = len(self.turns)
+        if len(self.roots) != frames or len(self.starts) != len(self.fps) + 1:
+            raise FormatError(path, "is damaged (frame counts differ)")
+        if self.starts[0] != 0 or self.starts[-1] != frames or not (np.diff(self.starts) > 0).all():
+            raise FormatError(path, "is damaged (its motions do not follow one another)")
+        if not (np.isfinite(self.fps) & (self.fps > 0)).all() or not np.isfinite(self.roots).all():
+            raise FormatError(path, "is damaged (a number is not finite)")
 
 
 def _summed(steps: npt.NDArray[Any]) -> npt.NDArray[np.int16]:

@@ -17,6 +17,7 @@ from motionrt.motion.motion import Motion
 from motionrt.motion.rotations import axis_angle_to_matrix, matrix_to_axis_angle, normalise
 from motionrt.motion.skeleton import SMPL24
 from motionrt.rigs.clip import RigClip
+from motionrt.untrusted.npz import read_arrays
 
 Array = npt.NDArray[np.float64]
 
@@ -158,21 +159,14 @@ def _save(file: BinaryIO, arrays: dict[str, npt.NDArray[np.generic]]) -> None:
 
 
 def _read_arrays(path: Path) -> dict[str, npt.NDArray[np.generic]]:
-    """The arrays that matter; what NumPy and the zip reader may raise on damaged bytes becomes one error."""
+    """The arrays that matter."""
     _require_archive(path)
     wanted = (*(key for keys, place in _LAYOUTS for key in (*keys, place)), "posed_joints", *_RATE_KEYS)
-    try:
-        with np.load(path, allow_pickle=False) as archive:
-            found = {key: archive[key] for key in wanted if key in archive.files}
-            names = ", ".join(sorted(archive.files)[:12]) or "nothing"
-    except Exception as error:  # zipfile, zlib and NumPy have no common class for "damaged"
-        pickled = "pickle" in str(error)
-        reason = "holds pickled objects, which are never loaded" if pickled else f"damaged archive ({error})"
-        raise FormatError(path, reason) from error
-    known = "posed_joints" in found or any(set(keys) <= found.keys() for keys, _ in _LAYOUTS)
-    if not known:
+    found, names = read_arrays(path, lambda reason, line: FormatError(path, reason, line), wanted)
+    if "posed_joints" not in found and not any(set(keys) <= found.keys() for keys, _ in _LAYOUTS):
         layouts = ", or ".join(" and ".join(map(repr, keys)) for keys, _ in _LAYOUTS)
-        raise FormatError(path, f"not poses of SMPL: it has no {layouts} (it holds {names})")
+        held = ", ".join(sorted(names)[:12]) or "nothing"
+        raise FormatError(path, f"not poses of SMPL: it has no {layouts} (it holds {held})")
     return found
 
 

@@ -10,6 +10,8 @@ import numpy as np
 import numpy.typing as npt
 
 from motionrt.errors import FormatError, MotionFileNotFoundError
+from motionrt.untrusted import files
+from motionrt.untrusted.files import check_file
 
 _LFS_POINTER = b"version https://git-lfs"
 
@@ -19,19 +21,18 @@ LARGEST_VALUE = 1e7
 
 def require_file(path: Path) -> None:
     """Raise MotionFileNotFoundError or FormatError unless ``path`` is an ordinary file."""
-    if path.is_dir():
-        raise FormatError(path, "is a folder, not a motion file")
-    if not path.exists():
-        raise MotionFileNotFoundError(f"no such motion file: {path}")
+    try:
+        check_file(path, lambda reason, line: FormatError(path, reason, line))
+    except FileNotFoundError as error:
+        raise MotionFileNotFoundError(f"no such motion file: {path}") from error
 
 
 def read_bytes(path: Path) -> bytes:
     """All bytes of a file; what the system refuses to read becomes a FormatError."""
-    require_file(path)
     try:
-        return path.read_bytes()
-    except OSError as error:
-        raise FormatError(path, f"cannot be read: {error.strerror or error}") from error
+        return files.read_bytes(path, lambda reason, line: FormatError(path, reason, line))
+    except FileNotFoundError as error:
+        raise MotionFileNotFoundError(f"no such motion file: {path}") from error
 
 
 def read_text(path: Path) -> str:

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from motionrt.errors import InvalidInputError
+from motionrt.limits import check_place, how_to_raise, limits
 from motionrt.locomotion.path import Path
 
 HOLD_S = 2.0  # seconds that a pose is held if nothing else is said
@@ -29,8 +30,7 @@ class WalkTo:
     heading: float | None = None
 
     def __post_init__(self) -> None:
-        if not all(math.isfinite(number) for number in (self.x, self.z, self.heading or 0.0)):
-            raise InvalidInputError(f"a place to walk to needs finite numbers, not {self}")
+        check_place("a place to walk to (x, z, heading)", (self.x, self.z), self.heading)
 
     @property
     def name(self) -> str:
@@ -127,3 +127,5 @@ Action = WalkTo | Follow | Act | Do | Stand | Wait
 def _check_seconds(seconds: float, name: str) -> None:
     if not (math.isfinite(seconds) and seconds >= 0):
         raise InvalidInputError(f"'{name}' cannot last {seconds} s; give 0 or more seconds")
+    if seconds > limits().seconds:
+        raise InvalidInputError(f"'{name}' cannot last {seconds:g} s: {how_to_raise('seconds')}")

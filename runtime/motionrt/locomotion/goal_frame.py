@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from motionrt.errors import InvalidInputError
+from motionrt.limits import check_place
 from motionrt.motion import Motion
 from motionrt.motion.features import ccf219
 from motionrt.motion.rotations import Array, axis_rotation
@@ -36,8 +36,7 @@ class Goal:
     heading: float = 0.0
 
     def __post_init__(self) -> None:
-        if not np.isfinite([self.x, self.z, self.heading]).all():
-            raise InvalidInputError(f"a goal needs three finite numbers (x, z, heading), not {self}")
+        check_place("a goal (x, z, heading)", (self.x, self.z), self.heading)
 
     def row(self) -> tuple[float, float, float]:
         """(x, z, heading), as the batched functions take it."""

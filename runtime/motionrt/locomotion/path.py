@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from motionrt.errors import FormatError, InvalidInputError
 from motionrt.formats.text import read_text, to_float
+from motionrt.limits import how_to_raise, limits
 from motionrt.locomotion.corners import round_corners
 from motionrt.motion.skeleton import FloatArray
 
@@ -53,9 +54,13 @@ class Path:
         points = np.array(self.points, dtype=np.float32)
         if points.ndim != 2 or points.shape[1] != 2:
             raise InvalidInputError(f"path points must have the shape (N, 2), x and z in metres, not {points.shape}")
+        if len(points) > limits().path_points:
+            raise InvalidInputError(f"a path of {len(points):,} points is too long: {how_to_raise('path_points')}")
         if not np.isfinite(points).all():
             bad = int(np.argmin(np.isfinite(points).all(axis=1)))
             raise InvalidInputError(f"path points hold a number that is not finite, first in point {bad}")
+        if np.abs(points).max(initial=0.0) > limits().metres:
+            raise InvalidInputError(f"path points lie too far from the origin: {how_to_raise('metres')}")
         points = points[np.append(True, np.linalg.norm(np.diff(points, axis=0), axis=1) > _SAME_POINT)[: len(points)]]
         if len(points) < 2:
             raise InvalidInputError("a path needs at least two different points")

@@ -10,8 +10,14 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from motionrt.errors import MotionRTError, ScriptError
+from motionrt.limits import how_to_raise, limits
+from motionrt.untrusted import Fail, yaml_text
+from motionrt.untrusted.files import read_utf8
+from motionrt.untrusted.words import shorten
 
 T = TypeVar("T")
+_LARGEST = 1e15
+"""No number of a script is larger."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,8 +65,8 @@ class Node:
         return list(self.value)
 
     def number(self, unit: str = "") -> float:
-        """A finite number."""
-        if isinstance(self.value, bool) or not isinstance(self.value, int | float) or not math.isfinite(self.value):
+        """A number that a float holds."""
+        if isinstance(self.value, bool) or not isinstance(self.value, int | float) or not abs(self.value) < _LARGEST:
             raise self.error(f"expected a number{unit and f' ({unit})'}, found {_shown(self.value)}")
         return float(self.value)
 
@@ -74,11 +80,13 @@ class Node:
         """A duration, 0 or more."""
         if self.number("seconds") < 0:
             raise self.error(f"expected 0 or more seconds, found {_shown(self.value)}")
+        if self.value > limits().seconds:
+            raise self.error(f"{_shown(self.value)} seconds are too many: {how_to_raise('seconds')}")
         return float(self.value)
 
     def whole(self) -> int:
         """A whole number from 0."""
-        if isinstance(self.value, bool) or not isinstance(self.value, int) or self.value < 0:
+        if isinstance(self.value, bool) or not isinstance(self.value, int) or not 0 <= self.value < _LARGEST:
             raise self.error(f"expected a whole number from 0, found {_shown(self.value)}")
         return int(self.value)
 
@@ -104,7 +112,13 @@ class Node:
         nodes = self.items(f"{len(axes)} numbers", example)
         if len(nodes) != len(axes):
             raise self.error(f"expected {len(axes)} numbers, as in {example}; found {len(nodes)}")
-        return tuple(node.named(self.name).number("metres") for node in nodes)
+        return tuple(node.named(self.name).coordinate() for node in nodes)
+
+    def coordinate(self) -> float:
+        """Metres from the origin."""
+        if abs(self.number("metres")) > limits().metres:
+            raise self.error(f"{_shown(self.value)} m is too far from the origin: {how_to_raise('metres')}")
+        return float(self.value)
 
     def place(self) -> tuple[float, float]:
         """[x, z] in metres."""
@@ -123,7 +137,8 @@ class Node:
 
 def unknown(name: object, known: Sequence[str]) -> str:
     """The end of a message about a name that is none of ``known``: the nearest of them, or all."""
-    near = get_close_matches(str(name), known, n=1, cutoff=0.6)
+    name = shorten(str(name))
+    near = get_close_matches(name, known, n=1, cutoff=0.6)
     return f"'{name}'; did you mean {near[0]}?" if near else f"'{name}'; there are: {', '.join(known)}"
 
 
@@ -131,51 +146,53 @@ def read_nodes(file: Path) -> Node:
     """The root of a script.
 
     Raises:
-        ScriptError: no such file, not UTF-8, not YAML, or a key that stands twice.
+        ScriptError: no such file, not UTF-8, not YAML, a key that stands twice, or more in it than
+            :class:`motionrt.limits.Limits` allows.
     """
-    import yaml
+
+    def fail(reason: str, line: int | None) -> ScriptError:
+        return ScriptError(f"{file}{f':{line}' if line else ''}: {reason}")
 
     try:
-        text = file.read_text(encoding="utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise ScriptError(f"{file}: is not UTF-8 text ({error.reason}); save it as UTF-8") from error
-    except OSError as error:
-        raise ScriptError(f"{file}: cannot be read: {error.strerror}") from error
-    loader = yaml.SafeLoader(text)
+        text = read_utf8(file, fail, "yaml_bytes")
+    except FileNotFoundError as error:
+        raise fail(f"cannot be read: {error.strerror}", None) from error
+    root, loader = yaml_text.compose(text, fail)
     try:
-        root = loader.get_single_node()
-        return Node({}, file, 1, "") if root is None else _node(root, loader, file, ())
-    except yaml.MarkedYAMLError as error:
-        line = error.problem_mark.line + 1 if error.problem_mark else 1
-        raise ScriptError(f"{file}:{line}: is not YAML: {error.problem or error.context}") from error
-    except yaml.YAMLError as error:
-        raise ScriptError(f"{file}: is not YAML: {error}") from error
+        return Node({}, file, 1, "") if root is None else _Reader(file, loader, fail).node(root, ())
     finally:
         loader.dispose()
 
 
-def _node(node: Any, loader: Any, file: Path, above: tuple[int, ...]) -> Node:
-    import yaml
+@dataclass(frozen=True)
+class _Reader:
+    """From nodes of the YAML library to those of a script."""
 
-    line = node.start_mark.line + 1
-    if id(node) in above:
-        raise ScriptError(f"{file}:{line}: an alias contains itself")
-    above = (*above, id(node))
-    if isinstance(node, yaml.MappingNode):
-        return Node(_mapping(node, loader, file, above), file, line, "")
-    if isinstance(node, yaml.SequenceNode):
-        return Node([_node(item, loader, file, above) for item in node.value], file, line, "")
-    return Node(loader.construct_object(node), file, line, "")
+    file: Path
+    loader: Any
+    fail: Fail
 
+    def node(self, node: Any, above: tuple[int, ...]) -> Node:
+        line = node.start_mark.line + 1
+        if id(node) in above:
+            raise self.fail("an alias contains itself", line)
+        above = (*above, id(node))
+        if node.id == "mapping":
+            return Node(self._mapping(node, above), self.file, line, "")
+        if node.id == "sequence":
+            return Node([self.node(item, above) for item in node.value], self.file, line, "")
+        return Node(yaml_text.construct(node, self.loader, self.fail), self.file, line, "")
 
-def _mapping(node: Any, loader: Any, file: Path, above: tuple[int, ...]) -> dict[str, Node]:
-    found: dict[str, Node] = {}
-    for key, value in node.value:
-        name, line = str(key.value), key.start_mark.line + 1
-        if name in found:
-            raise ScriptError(f"{file}:{line}: '{name}' stands twice")
-        found[name] = Node(_node(value, loader, file, above).value, file, line, "")
-    return found
+    def _mapping(self, node: Any, above: tuple[int, ...]) -> dict[str, Node]:
+        found: dict[str, Node] = {}
+        for key, value in node.value:
+            if key.id != "scalar":
+                raise self.fail("a key must be a name", key.start_mark.line + 1)
+            name, line = key.value, key.start_mark.line + 1
+            if name in found:
+                raise self.fail(f"'{shorten(name)}' stands twice", line)
+            found[name] = Node(self.node(value, above).value, self.file, line, "")
+        return found
 
 
 def _listed(names: Sequence[str]) -> str:
@@ -189,7 +206,7 @@ def _shown(value: Any) -> str:
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, dict):
-        return f"the keys {', '.join(value)}" if value else "an empty mapping"
+        return f"the keys {shorten(', '.join(value))}" if value else "an empty mapping"
     if isinstance(value, list):
         return f"a list of {len(value)}"
-    return f"'{value}'"
+    return f"'{shorten(str(value))}'"

@@ -8,6 +8,7 @@ from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
 
 from motionrt.locomotion.script_nodes import Node
+from motionrt.untrusted.files import beside
 
 if TYPE_CHECKING:
     from motionrt.locomotion.scene import Scene
@@ -69,7 +70,7 @@ def read_scene(node: Node) -> SceneSpec:
 
 def file_beside(node: Node, example: str) -> FilePath:
     """A file, relative to the script, that must exist."""
-    path = node.file.parent / node.text(example)
+    path = beside(node.file.parent, node.text(example), lambda reason, _: node.error(reason))
     if not path.is_file():
         raise node.error(f"there is no file {path} (names are relative to the script)")
     return path

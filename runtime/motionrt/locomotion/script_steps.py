@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
+from motionrt.limits import how_to_raise, limits
 from motionrt.locomotion.actions import HOLD_S, Act, Action, Do, Follow, Stand, Wait, WalkTo
 from motionrt.locomotion.path import Path
 from motionrt.locomotion.script_nodes import Node, unknown
@@ -18,6 +19,8 @@ def read_steps(node: Node) -> tuple[Action, ...]:
     steps = node.items("a list of steps", "- walk: {to: [2, 5]}")
     if not steps:
         raise node.error("give at least one step, as in - walk: {to: [2, 5]}")
+    if len(steps) > limits().steps:
+        raise node.error(f"{len(steps)} steps are too many: {how_to_raise('steps')}")
     return tuple(_step(step.named(f"step {i}")) for i, step in enumerate(steps, 1))
 
 

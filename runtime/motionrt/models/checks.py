@@ -4,28 +4,31 @@ from __future__ import annotations
 
 import hashlib
 from dataclasses import dataclass
-from functools import lru_cache
 from pathlib import Path
 
 from motionrt.errors import ChecksumError, ModelFileError
+from motionrt.models.external import names_other_files
 from motionrt.models.manifest import Manifest, Tokenizer, Variant
+from motionrt.untrusted.files import read_bytes
 
-_CHUNK = 1 << 18
 
-
-def verified(manifest: Manifest, entry: Variant | Tokenizer) -> Path:
-    """The path of a file that the manifest names; hashed once per process, again when it changes.
+def verified(manifest: Manifest, entry: Variant | Tokenizer) -> bytes:
+    """The content of a file that the manifest names: what is opened are these bytes, not the file again.
 
     Raises:
         ModelFileError: the file is missing or unreadable.
-        ChecksumError: it is another file; gives its path, checksum and size, expected and found.
+        ChecksumError: it is another file; gives its path, checksum and size, expected and found. Or it keeps weights in
+            a second file, which no checksum covers.
     """
     path = manifest.locate(entry.file)
-    found, size = _digest_of(path, shipped=_is_shipped(entry))
+    content = _content_of(path, shipped=_is_shipped(entry))
+    found, size = hashlib.sha256(content).hexdigest(), len(content)
     if (found, size) != (entry.sha256, entry.bytes):
         expected = f"sha256 expected {entry.sha256} ({entry.bytes} bytes), found {found} ({size} bytes)"
         raise ChecksumError(f"{path}: {expected}: {_guess(manifest, entry, found, size)}; {_remedy(entry)}")
-    return path
+    if isinstance(entry, Variant) and names_other_files(content):
+        raise ChecksumError(f"{path} keeps weights in another file, which is not read; export the model as one file")
+    return content
 
 
 def _is_shipped(entry: Variant | Tokenizer) -> bool:
@@ -48,26 +51,16 @@ def _remedy(entry: Variant | Tokenizer) -> str:
     return "install motionrt again, or export the models again" if _is_shipped(entry) else build
 
 
-def _digest_of(path: Path, *, shipped: bool) -> tuple[str, int]:
+def _content_of(path: Path, *, shipped: bool) -> bytes:
+    remedy = (
+        "install motionrt again"
+        if shipped
+        else "this variant is not shipped; in a checkout build it with: python -m motionrt_export all"
+    )
     try:
-        state = path.stat()
-        return _digest(path, state.st_mtime_ns, state.st_size), state.st_size
-    except OSError as error:
-        remedy = (
-            "install motionrt again"
-            if shipped
-            else "this variant is not shipped; in a checkout build it with: python -m motionrt_export all"
-        )
+        return read_bytes(path, lambda reason, _: ModelFileError(f"cannot read {path}: it {reason}; {remedy}"))
+    except FileNotFoundError as error:
         raise ModelFileError(f"cannot read {path}: {error.strerror or error}; {remedy}") from error
-
-
-@lru_cache(maxsize=64)
-def _digest(path: Path, changed_ns: int, size: int) -> str:  # noqa: ARG001  # they make a changed file another key
-    digest = hashlib.sha256()
-    with path.open("rb") as file:
-        while chunk := file.read(_CHUNK):
-            digest.update(chunk)
-    return digest.hexdigest()
 
 
 @dataclass(frozen=True)
@@ -104,7 +97,6 @@ class FileReport:
 
 def verify(manifest: Manifest) -> list[FileReport]:
     """Hash every file of the manifest; a variant that is not shipped may be absent (``not built``)."""
-    _digest.cache_clear()
     return [
         _report(manifest, model.name, name, entry)
         for model in manifest.models.values()
@@ -117,7 +109,8 @@ def _report(manifest: Manifest, model: str, name: str, entry: Variant | Tokenize
     path, shipped = manifest.locate(entry.file), _is_shipped(entry)
     found: tuple[str, int] | tuple[None, None] = (None, None)
     try:
-        found = _digest_of(path, shipped=shipped)
+        content = _content_of(path, shipped=shipped)
+        found = hashlib.sha256(content).hexdigest(), len(content)
         verified(manifest, entry)
     except ModelFileError as error:
         state, problem = "missing" if shipped else "not built", str(error)

@@ -8,6 +8,7 @@ from collections.abc import Callable
 from typing import Any, TypeVar
 
 from motionrt.errors import ManifestError
+from motionrt.untrusted.words import shorten, shown
 
 T = TypeVar("T")
 _HUGE = 1e300
@@ -30,7 +31,7 @@ class Fields:
         """A string with something in it."""
         value = self._take(key, str)
         if not value.strip():
-            raise ManifestError(f"{self.place}.{key}: expected a text, found {value!r}")
+            raise ManifestError(f"{self.place}.{key}: expected a text, found {shown(value)}")
         return value
 
     def integer(self, key: str, least: int = 1) -> int:
@@ -43,7 +44,7 @@ class Fields:
         if not FILE.fullmatch(value):
             raise ManifestError(
                 f"{self.place}.{key}: expected a relative path with forward slashes that stays beneath the manifest's "
-                f"folder, found {value!r}"
+                f"folder, found {shown(value)}"
             )
         return value
 
@@ -55,7 +56,7 @@ class Fields:
         """64 lower-case hexadecimal digits."""
         value = self._take(key, str)
         if not SHA256.fullmatch(value):
-            raise ManifestError(f"{self.place}.{key}: expected 64 lower-case hexadecimal digits, found {value!r}")
+            raise ManifestError(f"{self.place}.{key}: expected 64 lower-case hexadecimal digits, found {shown(value)}")
         return value
 
     def items(self, key: str, read: Callable[[Any, str], T]) -> tuple[T, ...]:
@@ -71,7 +72,8 @@ class Fields:
         place, content = f"{self.place}.{key}", self._take(key, dict)
         for name in content:
             if not isinstance(name, str) or not NAME.fullmatch(name):
-                raise ManifestError(f"{place}: a name has lower-case letters, digits and underscores, found {name!r}")
+                rule = "a name has lower-case letters, digits and underscores"
+                raise ManifestError(f"{place}: {rule}, found {shown(name)}")
         if not content:
             raise ManifestError(f"{place}: expected at least one entry")
         return table(read)(content, place)
@@ -84,7 +86,7 @@ class Fields:
     def done(self) -> None:
         """Raise ManifestError when a key was not asked for."""
         if self._left:
-            names = ", ".join(sorted(self._left))
+            names = shorten(", ".join(sorted(self._left)), 200)
             raise ManifestError(
                 f"{self.place}: unknown key {names}; if the manifest is of a newer motionrt, "
                 "update (pip install --upgrade motionrt), otherwise remove the key"
@@ -95,29 +97,29 @@ class Fields:
             raise ManifestError(f"{self.place}: '{key}' is missing")
         value = self._left.pop(key)
         if not isinstance(value, kind):
-            raise ManifestError(f"{self.place}.{key}: expected {kind.__name__}, found {value!r}")
+            raise ManifestError(f"{self.place}.{key}: expected {kind.__name__}, found {shown(value)}")
         return value
 
 
 def scalar(content: object, place: str) -> Scalar:
     """A string, a finite number or a boolean."""
     if not isinstance(content, str | int | float | bool) or (isinstance(content, float) and not math.isfinite(content)):
-        raise ManifestError(f"{place}: expected a string, a finite number or true/false, found {content!r}")
+        raise ManifestError(f"{place}: expected a string, a finite number or true/false, found {shown(content)}")
     return content
 
 
 def number(content: object, place: str) -> float:
     """A finite number."""
     if isinstance(content, bool) or not isinstance(content, int | float) or not abs(content) < _HUGE:
-        raise ManifestError(f"{place}: expected a number, and a finite one, found {content!r}")
+        raise ManifestError(f"{place}: expected a number, and a finite one, found {shown(content)}")
     return float(content)
 
 
 def whole(content: object, place: str, least: int = 1) -> int:
     """A whole number from ``least``."""
     integral = isinstance(content, int) or (isinstance(content, float) and content.is_integer())
-    if isinstance(content, bool) or not integral or int(content) < least:  # type: ignore[call-overload]
-        raise ManifestError(f"{place}: expected a whole number from {least}, found {content!r}")
+    if isinstance(content, bool) or not integral or not least <= int(content) < 2**63:  # type: ignore[call-overload]
+        raise ManifestError(f"{place}: expected a whole number from {least}, found {shown(content)}")
     return int(content)  # type: ignore[call-overload,no-any-return]
 
 
@@ -126,7 +128,7 @@ def listed(read: Callable[[Any, str], T]) -> Callable[[Any, str], tuple[T, ...]]
 
     def read_list(content: object, place: str) -> tuple[T, ...]:
         if not isinstance(content, list):
-            raise ManifestError(f"{place}: expected a list, found {content!r}")
+            raise ManifestError(f"{place}: expected a list, found {shown(content)}")
         return tuple(read(value, f"{place}[{i}]") for i, value in enumerate(content))
 
     return read_list

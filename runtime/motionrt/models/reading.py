@@ -9,6 +9,9 @@ from typing import Any
 from motionrt.errors import ManifestError
 from motionrt.models.fields import Fields, listed, number, scalar, table, whole
 from motionrt.models.manifest import Dataset, Manifest, Model, Statistic, TensorInfo, Tokenizer, Variant
+from motionrt.untrusted import yaml_text
+from motionrt.untrusted.files import read_utf8
+from motionrt.untrusted.words import shown
 
 SCHEMA = 1
 TYPES = ("bool", "float16", "float32", "float64", "int32", "int64")
@@ -69,12 +72,14 @@ def _parsed(path: Path) -> Any:
 
     from motionrt.models.yaml_keys import unique_keys
 
+    def fail(reason: str, line: int | None) -> ManifestError:
+        return ManifestError(f"{path}{f':{line}' if line else ''}: {reason}")
+
     try:
-        return yaml.load(path.read_text(encoding="utf-8"), unique_keys(yaml))  # a safe loader
-    except OSError as error:
+        text = read_utf8(path, fail, "yaml_bytes")
+    except FileNotFoundError as error:
         raise ManifestError(f"cannot read {path}: {error.strerror or error}") from error
-    except (yaml.YAMLError, UnicodeDecodeError, ValueError) as error:
-        raise ManifestError(f"{path} is not a YAML file: {error}") from error
+    return yaml_text.parse(text, unique_keys(yaml), fail)
 
 
 def _model(content: object, place: str) -> Model:
@@ -125,7 +130,7 @@ def _tensor(content: object, place: str) -> TensorInfo:
     )
     fields.done()
     if tensor.dtype not in TYPES:
-        raise ManifestError(f"{place}.dtype: expected one of {', '.join(TYPES)}, found {tensor.dtype!r}")
+        raise ManifestError(f"{place}.dtype: expected one of {', '.join(TYPES)}, found {shown(tensor.dtype)}")
     return tensor
 
 
@@ -133,7 +138,7 @@ def _axis(content: object, place: str) -> int | str:
     if isinstance(content, str) and content.strip():
         return content
     if isinstance(content, bool | str) or not isinstance(content, int | float):
-        raise ManifestError(f"{place}: an axis is a number or a name, found {content!r}")
+        raise ManifestError(f"{place}: an axis is a number or a name, found {shown(content)}")
     return whole(content, place)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections import defaultdict
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -84,8 +84,9 @@ class Sessions:
     def run(
         self, model: str, outputs: list[str], feeds: Arrays, variant: str | None = None
     ) -> list[npt.NDArray[np.float32]]:
-        """Run a model and give the named outputs, in that order."""
-        results: list[npt.NDArray[np.float32]] = self.session(model, variant).run(outputs, dict(feeds))
+        """Run a model and give the named outputs, in that order; switches that are not given are on."""
+        session = self.session(model, variant)
+        results: list[npt.NDArray[np.float32]] = session.run(outputs, {**switches_on(session), **feeds})
         return results
 
     def _try_to_open(self, model: str, variant: str | None) -> None:
@@ -93,41 +94,16 @@ class Sessions:
             self.session(model, variant)
 
     def _open_verified(self, chosen: Variant) -> InferenceSession:
-        """Open a file while it is hashed; a session is given once its file is known to be the right one."""
-        opening = Opening(lambda: self._open(self.manifest.locate(chosen.file)))
-        try:
-            verified(self.manifest, chosen)
-        finally:
-            opening.join()
-        return opening.result()
-
-    def _open(self, path: Path) -> InferenceSession:
+        """A session of the very bytes whose checksum is the right one."""
+        content = verified(self.manifest, chosen)
         options = self._options if self._options is not None else quiet_options(self.threads)
-        return open_session(str(path), options, self.providers)
+        return open_session(content, options, self.providers)
 
 
-class Opening(threading.Thread):
-    """A session on its way; `result` gives it, or raises what went wrong, when the thread has ended."""
-
-    def __init__(self, open_session: Callable[[], InferenceSession]) -> None:
-        super().__init__(name="motionrt-open", daemon=True)
-        self._open = open_session
-        self._found: list[InferenceSession | Exception] = []
-        self.start()
-
-    def run(self) -> None:
-        """Open the session; called by the thread."""
-        try:
-            self._found.append(self._open())
-        except Exception as error:  # noqa: BLE001  # it is raised to whoever asked for the session
-            self._found.append(error)
-
-    def result(self) -> InferenceSession:
-        """The session, or what went wrong, raised."""
-        found = self._found[0]
-        if isinstance(found, Exception):
-            raise found
-        return found
+def switches_on(session: InferenceSession) -> dict[str, npt.NDArray[np.bool_]]:
+    """True for every input that is a single bool: ``embed`` of the text model."""
+    inputs = session.get_inputs()
+    return {info.name: np.array(True) for info in inputs if info.type == "tensor(bool)" and not info.shape}
 
 
 def quiet_options(threads: int) -> SessionOptions:

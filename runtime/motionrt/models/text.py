@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -11,8 +11,10 @@ import numpy as np
 import numpy.typing as npt
 
 from motionrt.errors import InvalidInputError, ManifestError
+from motionrt.limits import how_to_raise, limits
 from motionrt.models.checks import verified
 from motionrt.models.sessions import Sessions
+from motionrt.untrusted.words import shown
 
 if TYPE_CHECKING:
     from tokenizers import Tokenizer
@@ -22,7 +24,7 @@ IntArray = npt.NDArray[np.int64]
 
 MODEL = "tmr_text"
 EMBED = "embed"
-"""Input of the model that need not be given; false leaves out what only a search needs."""
+"""Input of the model; false leaves out what only a search needs."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,7 +93,7 @@ def load_tokenizer(sessions: Sessions, model: str = MODEL) -> Tokenizer:
     info = sessions.model(model).tokenizer
     if info is None:
         raise ManifestError(f"{sessions.manifest.path}: model '{model}' names no tokenizer; export the models again")
-    tokenizer = Tokenizer.from_file(str(verified(sessions.manifest, info)))
+    tokenizer = Tokenizer.from_str(verified(sessions.manifest, info).decode("utf-8"))
     tokenizer.no_padding()
     tokenizer.enable_truncation(info.max_tokens)
     return tokenizer
@@ -100,14 +102,20 @@ def load_tokenizer(sessions: Sessions, model: str = MODEL) -> Tokenizer:
 def checked_texts(texts: Sequence[str]) -> list[str]:
     """Every text checked; a single string instead of a list is refused, as its letters would become texts."""
     if isinstance(texts, str | bytes):
-        raise InvalidInputError(f"expected a list of texts, found one text; give [{texts!r}]")
+        raise InvalidInputError(f"expected a list of texts, found one text; give [{shown(texts)}]")
+    if not isinstance(texts, Iterable):
+        raise InvalidInputError(f"expected a list of texts, not {shown(texts)}")
     return [checked_text(text) for text in texts]
 
 
 def checked_text(text: object) -> str:
     """``text`` itself; InvalidInputError unless it is a string with something in it."""
     if not isinstance(text, str):
-        raise InvalidInputError(f"a text must be a str, not {type(text).__name__} ({text!r})")
+        raise InvalidInputError(f"a text must be a str, not {type(text).__name__} ({shown(text)})")
+    if len(text) > limits().text_chars:
+        raise InvalidInputError(f"the text has {len(text):,} characters: {how_to_raise('text_chars')}")
+    if any("\ud800" <= character <= "\udfff" for character in text):
+        raise InvalidInputError(f"the text holds half a character (a lone surrogate): {shown(text)}")
     if not text.strip():
         raise InvalidInputError("the text is empty; describe a motion, such as 'a person walks in a circle'")
     return text

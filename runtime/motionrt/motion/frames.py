@@ -9,8 +9,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from motionrt.errors import InvalidInputError
+from motionrt.motion import checks
 from motionrt.motion.kinematics import fk
 from motionrt.motion.skeleton import SMPL24, FloatArray, Skeleton
+from motionrt.untrusted.words import shown
 
 if TYPE_CHECKING:
     from typing_extensions import Self  # of typing from Python 3.11 on
@@ -26,15 +28,18 @@ class Frames:
     skeleton: Skeleton = SMPL24
 
     def __post_init__(self) -> None:
-        rotations = _frozen(self.rotations, "rotations", (len(self.skeleton), 3, 3))
-        root = _frozen(self.root, "root", (3,))
+        if not isinstance(self.skeleton, Skeleton):
+            raise InvalidInputError(f"skeleton must be a Skeleton, not {shown(self.skeleton)}")
+        rotations = checks.frozen(self.rotations, "rotations", (len(self.skeleton), 3, 3))
+        root = checks.frozen(self.root, "root", (3,))
         if len(rotations) != len(root):
             raise InvalidInputError(f"rotations have {len(rotations)} frames but root has {len(root)}")
-        if not (np.isfinite(self.fps) and self.fps > 0):
-            raise InvalidInputError(f"fps must be a positive number, not {self.fps}")
+        fps = checks.checked_fps(self.fps)
+        checks.check_rotations(rotations, self.skeleton.names)
+        checks.check_root(root)
         object.__setattr__(self, "rotations", rotations)
         object.__setattr__(self, "root", root)
-        object.__setattr__(self, "fps", float(self.fps))
+        object.__setattr__(self, "fps", fps)
 
     def __repr__(self) -> str:
         return f"Motion({self.frames} frames, {self.duration:.2f} s at {self.fps:g} fps, {len(self.skeleton)} joints)"
@@ -83,16 +88,3 @@ class Frames:
         """The frames from ``start_s`` up to ``end_s`` (seconds); at least one frame, clipped to the motion."""
         first = min(max(round(start_s * self.fps), 0), self.frames - 1)
         return self[first : max(round(end_s * self.fps), first + 1)]
-
-
-def _frozen(array: FloatArray, name: str, shape: tuple[int, ...]) -> FloatArray:
-    """A read-only float32 copy of ``array`` with ``shape`` behind its frame axis."""
-    out = np.array(array, dtype=np.float32)
-    if out.shape[1:] != shape or out.ndim != len(shape) + 1 or not len(out):
-        expected = ", ".join(map(str, shape))
-        raise InvalidInputError(f"{name} must have the shape (frames >= 1, {expected}), not {out.shape}")
-    if not np.isfinite(out).all():
-        bad = int(np.argmin(np.isfinite(out).reshape(len(out), -1).all(axis=1)))
-        raise InvalidInputError(f"{name} holds a number that is not finite, first in frame {bad}")
-    out.setflags(write=False)
-    return out

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from motionrt.formats import Rig, RigMotion
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Motion(Frames):
     """``F`` frames of a character: Y up, metres, facing +Z in the rest pose, its left is +X.
 
@@ -27,7 +27,8 @@ class Motion(Frames):
         skeleton: the joint tree, ``smpl24`` unless said otherwise.
 
     Raises:
-        InvalidInputError: wrong shapes, no frames, numbers that are not finite, or a frame rate that is not positive.
+        InvalidInputError: wrong shapes, no frames, numbers that are not finite, matrices that are no rotations, a place
+            or a frame rate out of range (:mod:`motionrt.limits`).
     """
 
     def resample(self, fps: float) -> Motion:

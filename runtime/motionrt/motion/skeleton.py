@@ -31,10 +31,15 @@ class Skeleton:
     offsets: FloatArray
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "offsets", np.array(self.offsets, dtype=np.float32))
+        try:
+            object.__setattr__(self, "offsets", np.array(self.offsets, dtype=np.float32))
+        except (TypeError, ValueError) as error:
+            raise InvalidInputError("offsets must be numbers (J, 3)") from error
         self.offsets.setflags(write=False)
         if not len(self.names) == len(self.parents) == len(self.offsets):
             raise InvalidInputError("a Skeleton needs as many parents and offsets as names")
+        if not self.names or self.offsets.shape[1:] != (3,) or not np.isfinite(self.offsets).all():
+            raise InvalidInputError("a Skeleton needs at least one joint, and finite offsets (J, 3)")
         if self.parents[0] != -1 or any(not 0 <= p < j for j, p in enumerate(self.parents) if j):
             raise InvalidInputError("a Skeleton has one root, first, and every parent stands before its children")
 

@@ -11,6 +11,8 @@ from typing import TypeVar
 import numpy as np
 
 from motionrt.errors import InvalidInputError
+from motionrt.limits import how_to_raise, limits
+from motionrt.motion.checks import checked_fps
 from motionrt.motion.frames import Frames
 from motionrt.motion.rotations import (
     Array,
@@ -46,11 +48,12 @@ def heading(motion: Frames) -> Array:
 
 def resample(motion: Clip, fps: float) -> Clip:
     """``motion`` at ``fps`` frames per second; frame 0 stays frame 0, times beyond the last frame are not invented."""
-    if not (np.isfinite(fps) and fps > 0):
-        raise InvalidInputError(f"fps must be a positive number, not {fps}")
+    fps = checked_fps(fps)
     if abs(fps - motion.fps) < 1e-9:
         return motion
     count = int(np.floor((motion.frames - 1) * fps / motion.fps + 1e-6)) + 1
+    if count > limits().frames:
+        raise InvalidInputError(f"{count:,} frames at {fps:g} fps are too many: {how_to_raise('frames')}")
     times = np.arange(count) * (motion.fps / fps)
     before = np.minimum(times.astype(int), motion.frames - 1)
     after = np.minimum(before + 1, motion.frames - 1)

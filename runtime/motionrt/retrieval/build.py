@@ -14,6 +14,10 @@ from motionrt.retrieval.indexing import IndexedClip, OpenModel
 from motionrt.retrieval.locking import writing
 from motionrt.retrieval.scan import find_motion_files
 from motionrt.retrieval.store import DEFAULT_FOLDER
+from motionrt.untrusted.files import as_path
+from motionrt.untrusted.words import shown
+
+_MOST_JOBS = 256
 
 
 def build_gallery(
@@ -41,9 +45,9 @@ def build_gallery(
         MotionFileNotFoundError, InvalidInputError: no such folder, no motion file in it, or ``jobs`` below 1.
         GalleryError: no file could be read, the place cannot be written, or another process writes there.
     """
-    source = Path(folder).resolve()
+    source = as_path(folder).resolve()
     files, closed = find_motion_files(source)
-    target = Path(out) if out is not None else source / DEFAULT_FOLDER
+    target = as_path(out) if out is not None else source / DEFAULT_FOLDER
     workers = Workers(open_model, open_model(), _checked_jobs(jobs), progress)
     with writing(target):
         return run(Plan(source, target, files, closed, mapping), workers)
@@ -65,6 +69,7 @@ def update_gallery(
     workers = Workers(open_model, open_model(), _checked_jobs(jobs), progress)
     with writing(folder):
         old = Gallery.open(folder)
+        old.verify()  # what is reused must be what was written
         if old.source is None:
             raise GalleryError(f"the gallery in {folder} was not made from files: nothing to update it from")
         old.check_model(workers.model.fingerprint, workers.model.name)
@@ -85,6 +90,6 @@ def _indexed(gallery: Gallery) -> dict[str, IndexedClip]:
 
 
 def _checked_jobs(jobs: int) -> int:
-    if jobs < 1:
-        raise InvalidInputError(f"jobs must be at least 1, not {jobs}")
+    if isinstance(jobs, bool) or not isinstance(jobs, int) or not 1 <= jobs <= _MOST_JOBS:
+        raise InvalidInputError(f"jobs must be a whole number from 1 to {_MOST_JOBS}, not {shown(jobs)}")
     return jobs

@@ -6,13 +6,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import BinaryIO
-from zipfile import BadZipFile
 
 import numpy as np
 
-from motionrt.errors import InvalidInputError
+from motionrt.errors import FormatError, InvalidInputError
 from motionrt.formats.atomic import write_atomically
 from motionrt.motion.skeleton import FloatArray
+from motionrt.untrusted.files import as_path, read_utf8
+from motionrt.untrusted.npz import read_arrays
+
+_ARRAYS = ("texts", "embeddings", "fingerprint")
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,11 +49,13 @@ class EmbeddedCaptions:
     def read(cls, path: Path, fingerprint: str) -> EmbeddedCaptions | None:
         """What :meth:`save` wrote; ``None`` if it is not there, cannot be read, or another model made it."""
         try:
-            with np.load(path, allow_pickle=False) as data:
-                texts, made_by = str(data["texts"]).split("\n"), str(data["fingerprint"])
-                embeddings = data["embeddings"].astype(np.float32)
-        except (OSError, ValueError, KeyError, EOFError, BadZipFile):
+            data, _ = read_arrays(path, lambda reason, line: FormatError(path, reason, line), _ARRAYS)
+        except (OSError, FormatError):
             return None
+        if set(data) != set(_ARRAYS) or data["embeddings"].ndim != 2 or data["embeddings"].dtype.kind != "f":
+            return None
+        texts, made_by = str(data["texts"]).split("\n"), str(data["fingerprint"])
+        embeddings = data["embeddings"].astype(np.float32)
         if made_by != fingerprint or len(texts) != len(embeddings):
             return None
         return cls(tuple(texts), embeddings, made_by)
@@ -62,10 +67,13 @@ def read_captions(path: str | Path) -> list[str]:
     Raises:
         InvalidInputError: the file is missing, not UTF-8, or holds no caption.
     """
+    path = as_path(path)
     try:
-        lines = Path(path).read_text(encoding="utf-8-sig").splitlines()
-    except (OSError, UnicodeDecodeError) as error:
-        raise InvalidInputError(f"cannot read captions from {path}: {error}") from error
+        lines = read_utf8(
+            path, lambda reason, _: InvalidInputError(f"cannot read captions: {path} {reason}")
+        ).splitlines()
+    except FileNotFoundError as error:
+        raise InvalidInputError(f"cannot read captions from {path}: {error.strerror}") from error
     captions = [line.strip() for line in lines if line.strip() and not line.lstrip().startswith("#")]
     if not captions:
         raise InvalidInputError(f"{path} holds no captions; write one a line")

@@ -37,6 +37,8 @@ class Contents:
         """The motions that the gallery carries, read when first needed."""
         if not isinstance(self.motions, Path):
             return self.motions
+        if self.folder is not None:
+            store.verify(self.folder, {"motions": self.motions.name})
         try:
             return MotionPack.read(self.motions)
         except FormatError as error:

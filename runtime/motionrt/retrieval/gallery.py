@@ -23,9 +23,13 @@ from motionrt.retrieval.scores import IntArray
 from motionrt.retrieval.search import ExactIndex, Hit, checked_k, nearest_per_group
 from motionrt.retrieval.windows import MotionEmbedder, embed_windows, measured, motion_features, spans_in_seconds
 from motionrt.retrieval.words import WordIndex
+from motionrt.untrusted.files import as_path
+from motionrt.untrusted.words import shown
 
 if TYPE_CHECKING:
     from motionrt.retrieval.approximate import ApproximateIndex
+
+_UPDATE = "motionrt gallery update"
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,7 +72,7 @@ class Gallery(Contents):
             GalleryNotFoundError: there is none; the message gives the command that builds it.
             GalleryError: it is damaged or of another version.
         """
-        found = layout.read(store.locate(Path(path)))
+        found = layout.read(store.locate(as_path(path)))
         return cls(**{field.name: getattr(found, field.name) for field in fields(found)}, providers=providers)
 
     @classmethod
@@ -119,7 +123,7 @@ class Gallery(Contents):
     def verify(self) -> None:
         """Read the gallery's files in full and check their checksums; GalleryError names a damaged one."""
         if self.folder is not None:
-            store.verify(self.folder, store.read_head(self.folder)["files"])
+            layout.verify(self.folder)
 
     def check_model(self, fingerprint: str, name: str) -> None:
         """GalleryError unless the model with that fingerprint made this gallery."""
@@ -147,7 +151,7 @@ class Gallery(Contents):
             MissingDependencyError: ``approximate`` without the package that it needs.
         """
         k = checked_k(k)
-        query = np.asarray(query, dtype=np.float32)
+        query = _as_query(query)
         if query.shape != self.embeddings.shape[1:]:
             raise InvalidInputError(f"a query is a vector of {self.embeddings.shape[1]}, not {query.shape}")
         index = self._approximate if approximate else self._exact
@@ -178,12 +182,13 @@ class Gallery(Contents):
 
         Raises:
             InvalidInputError: no clip with that id.
-            GalleryError: the gallery carries neither the motion nor a file's name.
+            GalleryError: the gallery carries neither the motion nor a file's name; or the file lies outside of the
+                gallery's surroundings and is not the one that was indexed.
             MotionFileNotFoundError, FormatError: the clip's file is gone, or broken now.
         """
-        clip_id = hit if isinstance(hit, str) else hit.id
-        if clip_id not in self._numbers:
-            raise InvalidInputError(f"no clip '{clip_id}' in this gallery")
+        clip_id = hit if isinstance(hit, str) else getattr(hit, "id", hit)
+        if not isinstance(clip_id, str) or clip_id not in self._numbers:
+            raise InvalidInputError(f"no clip {shown(clip_id)} in this gallery")
         motion = self._load(self._numbers[clip_id])
         return motion if isinstance(hit, str) else motion.between(hit.start_s, hit.end_s)
 
@@ -198,9 +203,20 @@ class Gallery(Contents):
         path = self.path(clip)
         if path is None:
             raise GalleryError(f"the motion of '{clip.id}' is not in the gallery, only its embedding")
+        self._check_foreign(clip, path)
         from motionrt.formats import load_motion  # its readers are slow to import
 
         return load_motion(path, mapping=self.mapping)
+
+    def _check_foreign(self, clip: Clip, path: Path) -> None:
+        """Of files that lie elsewhere only those are read that were indexed: a strange gallery names no others.
+
+        Raises:
+            GalleryError: the file is another one than was indexed.
+        """
+        inside = self.folder is not None and self.source is not None and self.folder.is_relative_to(self.source)
+        if not inside and path.is_file() and store.digest(path) != clip.sha256:
+            raise GalleryError(f"{path} is not the file that was indexed; bring the gallery up to date: {_UPDATE}")
 
     def nearest(self, query: FloatArray, count: int, *, approximate: bool = False) -> IntArray:
         """The ``count`` windows nearest to a unit vector ``(256,)``, best first, or all there are.
@@ -209,7 +225,7 @@ class Gallery(Contents):
             InvalidInputError: a query of another shape or not finite.
             MissingDependencyError: ``approximate`` without the package that it needs.
         """
-        query = np.asarray(query, dtype=np.float32)
+        query = _as_query(query)
         if query.shape != self.embeddings.shape[1:]:
             raise InvalidInputError(f"a query is a vector of {self.embeddings.shape[1]}, not {query.shape}")
         return (self._approximate if approximate else self._exact).nearest(query, count)[0]
@@ -240,6 +256,7 @@ class Gallery(Contents):
 
     @cached_property
     def _exact(self) -> ExactIndex:
+        layout.check_embeddings(self)
         return ExactIndex(self.embeddings, providers=self.providers)
 
     @cached_property
@@ -251,3 +268,10 @@ class Gallery(Contents):
     @cached_property
     def _numbers(self) -> dict[str, int]:
         return {clip.id: number for number, clip in enumerate(self.clips)}
+
+
+def _as_query(query: object) -> FloatArray:
+    try:
+        return np.asarray(query, dtype=np.float32)
+    except (TypeError, ValueError) as error:
+        raise InvalidInputError(f"a query is a vector of numbers, not {shown(query)}") from error

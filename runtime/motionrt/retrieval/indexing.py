@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-import signal
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import closing
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 
-from motionrt.errors import FormatError, GalleryError, MotionRTError
+from motionrt.errors import FormatError, MotionRTError
 from motionrt.formats import load_motion
 from motionrt.motion.skeleton import FloatArray
 from motionrt.retrieval.records import Clip, Skipped
@@ -84,34 +85,15 @@ def index_files(
     if processes <= 1:
         yield from (index_file(job, model) for job in jobs)
         return
-    yield from _in_processes(jobs, open_model, processes)
+    from motionrt.retrieval.processes import in_processes
+
+    with closing(in_processes(jobs, partial(_indexer, open_model), processes)) as outcomes:
+        yield from outcomes
 
 
-def _in_processes(jobs: Sequence[FileJob], open_model: OpenModel, processes: int) -> Iterator[Outcome]:
-    import multiprocessing  # slow to import, and seldom needed
-    from concurrent.futures import ProcessPoolExecutor
-    from concurrent.futures.process import BrokenProcessPool
-
-    spawning = multiprocessing.get_context("spawn")
-    pool = ProcessPoolExecutor(processes, spawning, initializer=_start_process, initargs=(open_model,))
-    try:
-        yield from pool.map(_index_in_process, jobs)
-    except BrokenProcessPool as error:
-        raise GalleryError("a process of the build ended early (out of memory?); try fewer --jobs") from error
-    finally:
-        pool.shutdown(wait=True, cancel_futures=True)
-
-
-_process_model: list[MotionEmbedder] = []  # of a build process, which has exactly one
-
-
-def _start_process(open_model: OpenModel) -> None:
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the parent's, which then ends its processes
-    _process_model[:] = [open_model()]
-
-
-def _index_in_process(job: FileJob) -> Outcome:
-    return index_file(job, _process_model[0])
+def _indexer(open_model: OpenModel) -> Callable[[FileJob], Outcome]:
+    """What a process of a build does with its jobs; it opens a model of its own."""
+    return partial(index_file, model=open_model())
 
 
 def _reason(error: Exception) -> str:

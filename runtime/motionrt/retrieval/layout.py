@@ -15,8 +15,11 @@ from motionrt.motion.attributes import ATTRIBUTES
 from motionrt.motion.skeleton import FloatArray
 from motionrt.retrieval import store
 from motionrt.retrieval.contents import Contents
-from motionrt.retrieval.records import WINDOW_TYPE, Caption, Clip, ModelStamp, Skipped, WindowTable
+from motionrt.retrieval.head import array_files, captions_of, clips_of, mapping_of, model_of, skipped_of, source_of
+from motionrt.retrieval.records import WINDOW_TYPE, WindowTable
 from motionrt.retrieval.words import WordIndex
+
+_CHECKED = 256 * 2**20  # bytes of embeddings that are checked at the first search
 
 
 def save(gallery: Contents, folder: Path) -> None:
@@ -47,54 +50,77 @@ def read(folder: Path) -> Contents:
         raise store.damaged(folder, f"no file {error.filename}") from error
 
 
+def verify(folder: Path) -> dict[str, str]:
+    """Check every array of a gallery against its checksum, and what the motions say; returns the files by role."""
+    head = store.read_head(folder)
+    files = array_files(head.get("files"), store.fails(folder / store.GALLERY_FILE))
+    store.verify(folder, files)
+    contents = _assembled(folder, head)
+    if contents.pack is not None and len(contents.pack) != len(contents.clips):
+        raise store.damaged(folder, "it holds another number of motions than of clips")
+    return files
+
+
+def check_embeddings(contents: Contents) -> None:
+    """GalleryError if the embeddings on disk are damaged; those beyond 256 MiB are left to :func:`verify`."""
+    mapped = contents.embeddings.base
+    if not isinstance(mapped, np.memmap) or contents.folder is None or contents.embeddings.nbytes > _CHECKED:
+        return
+    name = Path(str(mapped.filename)).name
+    if (contents.folder / name).is_file():  # otherwise another process has replaced the gallery: this one is mapped
+        store.verify(contents.folder, {"embeddings": name})
+
+
 def _assembled(folder: Path, head: dict[str, Any]) -> Contents:
-    try:
-        contents = _read(folder, head)
-    except (KeyError, TypeError, AttributeError) as error:
-        raise store.damaged(folder / store.GALLERY_FILE, f"{type(error).__name__}: {error}") from error
+    contents = _read(folder, head)
     _check(contents.embeddings, contents.windows, len(contents.clips), folder)
-    if contents.attributes is not None and contents.attributes.shape != (len(contents.windows), len(ATTRIBUTES)):
+    found = contents.attributes
+    if found is not None and (found.shape != (len(contents.windows), len(ATTRIBUTES)) or found.dtype.kind != "f"):
         raise store.damaged(folder, "windows and attributes do not fit together")
     return contents
 
 
 def _read(folder: Path, head: dict[str, Any]) -> Contents:
-    files = head["files"]
+    fail = store.fails(folder / store.GALLERY_FILE)
+    files = array_files(head.get("files"), fail)
+    if (folder / files["windows"]).is_file():  # small; the others are checked when they are first used
+        store.verify(folder, {"windows": files["windows"]})
     return Contents(
-        clips=tuple(Clip(**clip) for clip in head["clips"]),
+        clips=clips_of(head.get("clips"), fail),
         embeddings=store.read_array(folder, files["embeddings"]),
         windows=store.read_array(folder, files["windows"]),
-        model=ModelStamp(**head["model"]),
-        source=_source(folder, head["source"]),
-        skipped=tuple(Skipped(**skipped) for skipped in head["skipped"]),
-        mapping=head["mapping"],
+        model=model_of(head.get("model"), fail),
+        source=_source(folder, source_of(head.get("source"), fail)),
+        skipped=skipped_of(head.get("skipped"), fail),
+        mapping=mapping_of(head.get("mapping"), fail),
         motions=folder / files["motions"] if "motions" in files else None,
         folder=folder,
         neighbours=folder / store.neighbours_name(files["embeddings"]),
-        attributes=_attributes(folder, head),
+        attributes=_attributes(folder, head, files),
         words_file=folder / files["words"] if "words" in files else None,
-        captions=tuple(_caption(row) for row in head.get("captions", ())),
+        captions=captions_of(head.get("captions", []), fail),
     )
 
 
-def _attributes(folder: Path, head: dict[str, Any]) -> FloatArray | None:
+def _attributes(folder: Path, head: dict[str, Any], files: dict[str, str]) -> FloatArray | None:
     """Attributes ``(W, A)``; None of a gallery that has none, or those of another version of motionrt."""
-    if head.get("attributes") != list(ATTRIBUTES):
+    if head.get("attributes") != list(ATTRIBUTES) or "attributes" not in files:
         return None
-    return store.read_array(folder, head["files"]["attributes"])
-
-
-def _caption(row: dict[str, Any]) -> Caption:
-    return Caption(**{**row, "tags": tuple(row["tags"])})
+    return store.read_array(folder, files["attributes"])
 
 
 def _check(embeddings: FloatArray, windows: WindowTable, clips: int, folder: Path) -> None:
     """GalleryError unless every clip has windows, in order, and every window an embedding."""
     if embeddings.dtype != np.float32 or embeddings.ndim != 2 or windows.dtype != WINDOW_TYPE:
         raise store.damaged(folder, "an array has the wrong type")
-    owners = windows["clip"]
-    if len(embeddings) != len(windows) or not np.array_equal(np.unique(owners), np.arange(clips)):
+    if windows.ndim != 1 or len(embeddings) != len(windows) or not clips:
         raise store.damaged(folder, "clips, windows and embeddings do not fit together")
+    owners, start, end = windows["clip"], windows["start_s"], windows["end_s"]
+    if (np.diff(owners) < 0).any() or not np.array_equal(np.unique(owners), np.arange(clips)):
+        raise store.damaged(folder, "clips, windows and embeddings do not fit together")
+    with np.errstate(invalid="ignore"):
+        if not ((start >= 0) & (start <= end) & (end < np.inf)).all():
+            raise store.damaged(folder, "a window has no beginning or no end")
 
 
 def _head(gallery: Contents, folder: Path) -> dict[str, Any]:

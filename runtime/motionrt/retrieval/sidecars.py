@@ -10,13 +10,16 @@ from __future__ import annotations
 
 import csv
 import json
+import math
 import os
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 from typing import Any
 
+from motionrt.errors import FormatError
 from motionrt.retrieval.records import Caption, Skipped
+from motionrt.untrusted.files import check_file
 
 NAMES = ("captions.csv", "captions.jsonl")
 _CLIP = ("file", "path", "clip", "trial", "name", "id")
@@ -51,9 +54,10 @@ def _read(path: Path, below: PurePosixPath, clips: Sequence[str]) -> tuple[list[
     known = _by_name(below, clips)
     found: list[Caption] = []
     try:
+        check_file(path, lambda reason, _: FormatError(path, reason))
         for row in _rows(path):
             found += _captions(row, known)
-    except (OSError, ValueError, csv.Error) as error:
+    except (OSError, ValueError, RecursionError, csv.Error) as error:
         return found, f"cannot be read: {error}"
     return found, None if found else "none of its rows names a clip of the folder and words for it"
 
@@ -105,6 +109,7 @@ def _texts(value: object, split: bool = False) -> list[str]:
 
 def _seconds(value: object) -> float | None:
     try:
-        return float(value) if value not in (None, "") else None  # type: ignore[arg-type]
-    except (TypeError, ValueError):
+        seconds = float(value) if value not in (None, "") else None  # type: ignore[arg-type]
+    except (TypeError, ValueError, OverflowError):
         return None
+    return seconds if seconds is not None and math.isfinite(seconds) else None

@@ -7,17 +7,22 @@ opens the folder, at any moment and after any crash, sees one whole gallery: the
 from __future__ import annotations
 
 import hashlib
-import json
 import os
 import re
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from typing import IO, Any
 
 import numpy as np
 import numpy.typing as npt
 
-from motionrt.errors import GalleryError, GalleryNotFoundError
+from motionrt.errors import FormatError, GalleryError, GalleryNotFoundError
+from motionrt.retrieval.head import check_seal, parsed, sealed
+from motionrt.untrusted import Fail
+from motionrt.untrusted.files import check_file, read_bytes
+from motionrt.untrusted.npz import read_npy
+from motionrt.untrusted.words import shown
 
 GALLERY_FILE = "gallery.json"
 DEFAULT_FOLDER = ".motionrt-gallery"
@@ -45,26 +50,23 @@ def read_head(folder: Path) -> dict[str, Any]:
     """The content of ``gallery.json``; GalleryError when it is damaged or of another version."""
     path = folder / GALLERY_FILE
     try:
-        head = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
-        raise damaged(path, str(error)) from error
+        content = read_bytes(path, fails(path))
+    except FileNotFoundError as error:
+        raise damaged(path, "it is gone") from error
+    head = parsed(content, fails(path))
     if not isinstance(head, dict) or head.get("format") != FORMAT:
         raise damaged(path, "not a gallery of motionrt")
     if head.get("version") != VERSION:
         raise GalleryError(
-            f"{path} has version {head.get('version')}, this motionrt reads version {VERSION}; build it again"
+            f"{path} has version {shown(head.get('version'))}, this motionrt reads version {VERSION}; build it again"
         )
+    check_seal(content, head, fails(path))
     return head
 
 
 def read_array(folder: Path, name: str) -> npt.NDArray[Any]:
     """One array, memory-mapped; FileNotFoundError when it is not there, GalleryError when it is damaged."""
-    try:
-        return np.asarray(np.load(folder / name, mmap_mode="r", allow_pickle=False))
-    except FileNotFoundError:
-        raise
-    except (OSError, ValueError, EOFError) as error:
-        raise damaged(folder / name, str(error)) from error
+    return np.asarray(read_npy(folder / name, fails(folder / name)))
 
 
 def write(folder: Path, head: dict[str, Any], arrays: dict[str, tuple[str, Writer]]) -> None:
@@ -75,13 +77,16 @@ def write(folder: Path, head: dict[str, Any], arrays: dict[str, tuple[str, Write
     Raises:
         GalleryError: the disk refuses.
     """
+    before = {path.name for path in folder.iterdir()}
     try:
         files = {role: _write_array(folder, role, *how) for role, how in arrays.items()}
         head = {"format": FORMAT, "version": VERSION, "created_by": _created_by(), **head, "files": files}
-        text = json.dumps(head, indent=1) + "\n"
-        _replace(folder, GALLERY_FILE, lambda file: _discard(file.write(text.encode("ascii"))))
-    except OSError as error:
-        raise GalleryError(f"cannot write the gallery to {folder}: {error.strerror}") from error
+        _replace(folder, GALLERY_FILE, lambda file: _discard(file.write(sealed(head))))
+    except BaseException as error:
+        _remove_new(folder, before)
+        if isinstance(error, OSError):
+            raise GalleryError(f"cannot write the gallery to {folder}: {error.strerror}") from error
+        raise
     kept = set(files.values())
     _remove_stale(folder, kept | {neighbours_name(name) for name in kept})
 
@@ -95,8 +100,9 @@ def neighbours_name(embeddings: str) -> str:
 
 
 def digest(path: Path) -> str:
-    """The file's sha256."""
+    """The sha256 of a plain file; FormatError for a pipe, a device or a file that is too large."""
     checksum = hashlib.sha256()
+    check_file(path, lambda reason, _: FormatError(path, reason))
     with path.open("rb") as file:
         while block := file.read(1 << 20):
             checksum.update(block)
@@ -108,10 +114,15 @@ def verify(folder: Path, files: dict[str, str]) -> None:
     for name in files.values():
         try:
             found = digest(folder / name)
-        except OSError as error:
+        except (OSError, FormatError) as error:
             raise damaged(folder / name, str(error)) from error
         if f"-{found[:16]}." not in name:
             raise damaged(folder / name, "its checksum is wrong")
+
+
+def fails(path: Path) -> Fail:
+    """Makes the error for a gallery file that cannot be used out of a reason."""
+    return lambda reason, _: damaged(path, reason)
 
 
 def damaged(path: Path, reason: str) -> GalleryError:
@@ -152,6 +163,15 @@ def _remove_stale(folder: Path, keep: set[str]) -> None:
                 path.unlink()
             except OSError:  # mapped by a reader, on Windows: the next writer removes it
                 continue
+
+
+def _remove_new(folder: Path, before: set[str]) -> None:
+    """What a write that failed, or was broken off, left behind: it names nothing and fills the disk."""
+    for path in folder.iterdir():
+        left = path.name.startswith(TEMPORARY) or (_ARRAY_FILE.fullmatch(path.name) and path.name not in before)
+        if left:
+            with suppress(OSError):
+                path.unlink()
 
 
 def _created_by() -> str:

@@ -13,15 +13,17 @@ from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path, PurePosixPath
 from typing import IO
-from zipfile import BadZipFile
 
 import numpy as np
 import numpy.typing as npt
 
+from motionrt.errors import FormatError
 from motionrt.retrieval.records import Caption, Clip, WindowTable
+from motionrt.untrusted.npz import read_arrays
 
 Array = npt.NDArray[np.float32]
 IntArray = npt.NDArray[np.int32]
+_KINDS = {"words": np.uint8, "starts": np.int32, "windows": np.int32, "weights": np.float32, "worth": np.float32}
 _K1, _B = 1.2, 0.5
 _WORD = re.compile(r"[^\W\d_]+")
 _SAYS_NOTHING = """
@@ -118,14 +120,18 @@ class WordIndex:
     def read(cls, path: Path, count: int) -> WordIndex | None:
         """What :meth:`write` wrote for ``count`` windows; None where the file is damaged: it can be made again."""
         try:
-            with np.load(path, allow_pickle=False) as file:
-                words = file["words"].tobytes().decode("utf-8")
-                rest = (file["starts"], file["windows"], file["weights"], file["worth"])
-        except (OSError, ValueError, KeyError, EOFError, BadZipFile):
+            found, _ = read_arrays(path, lambda reason, line: FormatError(path, reason, line), tuple(_KINDS))
+        except (OSError, FormatError):
             return None
-        numbers = {word: k for k, word in enumerate(words.split("\n") if words else [])}
-        fits = len(numbers) == len(rest[3]) == len(rest[0]) - 1 and rest[1].max(initial=-1) < count
-        return cls(numbers, *rest, count) if fits else None
+        if set(found) != set(_KINDS) or any(a.ndim != 1 or a.dtype != _KINDS[name] for name, a in found.items()):
+            return None
+        words, starts, windows, weights, worth = (found[name] for name in _KINDS)
+        listed = words.tobytes().decode("utf-8", "replace").split("\n") if len(words) else []
+        numbers = {word: k for k, word in enumerate(listed)}
+        fits = len(numbers) == len(worth) == len(starts) - 1 and len(windows) == len(weights) == starts[-1]
+        fits = fits and starts[0] == 0 and bool((np.diff(starts) >= 0).all())
+        fits = fits and 0 <= windows.min(initial=0) <= windows.max(initial=-1) + 1 <= count
+        return cls(numbers, starts, windows, weights, worth, count) if fits else None
 
     def known(self, text: str) -> list[str]:
         """The words of a text that some clip carries."""

@@ -132,8 +132,16 @@ class RigTree:
         """``joint`` and the line of descendants with the greatest summed length."""
         chain = [joint]
         while self.children[chain[-1]]:
-            chain.append(max(self.children[chain[-1]], key=self._reach))
+            chain.append(max(self.children[chain[-1]], key=self._reach.__getitem__))
         return chain
 
-    def _reach(self, joint: int) -> float:
-        return float(self.lengths[joint]) + max(map(self._reach, self.children[joint]), default=0.0)
+    @cached_property
+    def _reach(self) -> list[float]:
+        """For every joint the summed length of the longest line down from it, its own bone included."""
+        reach = [float(length) for length in self.lengths]
+        below = [0.0] * len(reach)
+        for joint in range(len(reach) - 1, -1, -1):
+            reach[joint] += below[joint]
+            if (parent := self.parents[joint]) >= 0:
+                below[parent] = max(below[parent], reach[joint])
+        return reach

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -19,6 +18,7 @@ from motionrt.studio.jobs import Told
 from motionrt.studio.postures import Place
 from motionrt.studio.scenery import open_scenery
 from motionrt.studio.script_text import script_text
+from motionrt.studio.uploads import SCENE_SUFFIXES, Uploads
 
 if TYPE_CHECKING:
     from motionrt.locomotion import Performance, Script
@@ -42,6 +42,7 @@ class DirectPanel:
     def __init__(self, session: StudioWindow) -> None:
         self._session, self.history = session, History()
         self._tool: str | None = None
+        self.uploads = Uploads()
         self._listening = False
         self._gizmos = Gizmos(session.client, session.guarded(self._dragged))
         gui = session.client.gui
@@ -62,12 +63,6 @@ class DirectPanel:
 
     def _add_scene(self, gui: Any) -> None:
         guarded = self._session.guarded
-        if self._session.workshop.local:
-            with gui.add_form(None) as form:
-                self._file: Any = gui.add_text("File", initial_value="", hint="A script, a mesh or a map, by its path")
-            load: Any = gui.add_button("Load", icon="folder-open")
-            form.on_submit(guarded(lambda _: self.load(Path(self._file.value.strip()))))
-            load.on_click(guarded(lambda _: self.load(Path(self._file.value.strip()))))
         upload: Any = gui.add_upload_button("Upload a mesh, a map or a script", icon="upload")
         upload.on_upload(guarded(lambda _: self._uploaded(upload.value.name, upload.value.content)))
 
@@ -124,10 +119,12 @@ class DirectPanel:
         self.change(Draft(script.start, tuple(script.steps)))
 
     def _uploaded(self, name: str, content: bytes) -> None:
-        folder = Path(tempfile.mkdtemp(prefix="motionrt-"))
-        file = folder / Path(name.replace("\\", "/")).name
-        file.write_bytes(content)
-        self.load(file)
+        file = self.uploads.keep(name, content)
+        if file.suffix.lower() not in SCENE_SUFFIXES:
+            self._session.say("Uploaded", f"{file.name}; a script or a map may name it")
+            return
+        with self.uploads.alone():
+            self.load(file)
 
     def take(self, tool: str | None) -> None:
         """Another tool: what clicks mean from now on; None for nothing."""

@@ -10,6 +10,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from motionrt.errors import InvalidInputError
+from motionrt.studio.gate import Gate, serving_through
 from motionrt.studio.layout import AS_RECORDED, frame_all, offsets
 from motionrt.studio.session import ASPECT, FIELD_OF_VIEW, PANEL_PIXELS, Session, scenery_boxes
 from motionrt.studio.windows import Show
@@ -21,6 +22,7 @@ HOST, PORT = "127.0.0.1", 8080
 NEAR = 0.1  # metres; nearer planes make marks on the ground flicker
 GROUND, HORIZON, SKY = (226, 229, 234), (240, 242, 245), (208, 219, 233)
 FOG_NEAR, FOG_FAR = 16.0, 55.0  # metres
+_starting = threading.Lock()  # one server is started at a time
 MakeSession = Callable[[Any, Show], Session]
 
 
@@ -29,7 +31,7 @@ class Page:
 
     Args:
         server: of viser.
-        url: where it is.
+        url: where it is, with the token that lets a browser in.
         make: what a new window gets.
         show: what it begins with.
     """
@@ -101,13 +103,35 @@ def open_studio(show: Show, workshop: Workshop, *, host: str = HOST, port: int =
 def serve(make: MakeSession, show: Show, *, host: str, port: int, title: str) -> Page:
     """Open a server whose windows are made by ``make``."""
     viser = _viser()
-    port = free_port(host, port)
-    with contextlib.redirect_stdout(io.StringIO()):  # viser prints a box
-        server = viser.ViserServer(host=host, port=port, label=title, verbose=False)
+    gate = Gate(host, free_port(host, port))
+    server = _guarded_server(viser, gate, title)
     _furnish(server)
     _aim(server, show)
-    shown = "127.0.0.1" if host in {"0.0.0.0", "::", ""} else host
-    return Page(server, f"http://{shown}:{port}", make, show)
+    return Page(server, gate.url, make, show)
+
+
+def _guarded_server(viser: Any, gate: Gate, title: str) -> Any:
+    """A server of viser with the gate in front: viser has no place for one, so it is put where the port is opened.
+
+    Raises:
+        InvalidInputError: this version of viser opens its port in another way; nothing is served then.
+    """
+    import websockets.asyncio.server as sockets
+
+    with _starting, contextlib.redirect_stdout(io.StringIO()):  # viser prints a box
+        serve = sockets.serve
+        sockets.serve = serving_through(gate, serve)  # type: ignore[misc,assignment]
+        try:
+            server = viser.ViserServer(host=gate.host, port=gate.port, label=title, verbose=False)
+        finally:
+            sockets.serve = serve  # type: ignore[misc]
+        if not gate.installed or server.get_port() != gate.port:
+            server.stop()
+            raise InvalidInputError(
+                "this version of viser cannot be guarded, so nothing is served; install another: pip install "
+                "'motionrt[studio]'"
+            )
+    return server
 
 
 def free_port(host: str, port: int) -> int:

@@ -178,7 +178,7 @@ class Session:
         """Tell the page what went wrong."""
         if not isinstance(error, MotionRTError):
             log.error("unexpected", exc_info=error)
-        words = str(error) if isinstance(error, MotionRTError) else f"unexpected {type(error).__name__}: {error}"
+        words = str(error) if isinstance(error, MotionRTError) else f"unexpected {type(error).__name__}; see the log"
         self.complain(words)
 
     def complain(self, words: str, seconds: float | None = 15.0) -> None:

@@ -129,6 +129,7 @@ class StudioSession(Session):
         """The window is gone, and what it asked for is not wanted any more."""
         super().close()
         self.jobs.cancel()
+        self.direct.uploads.close()
 
     def _failed(self, error: BaseException) -> None:
         if isinstance(error, Cancelled):

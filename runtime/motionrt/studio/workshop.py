@@ -25,7 +25,7 @@ class Workshop:
         runtime: whose verbs are called.
         gallery: what is searched; None for the starter gallery.
         folder: where files may be saved on this machine; None for nowhere: they are downloaded.
-        local: whether only this machine sees the page, so that it may name files here.
+        local: whether only this machine sees the page. A page names no files of the machine in either case.
         desk: held by whoever uses the models.
     """
 

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from motionrt.errors import InvalidInputError
+from motionrt.limits import limits
 from motionrt.models.text import FloatArray
 from motionrt.motion.features import sinc135
 
@@ -55,7 +56,7 @@ class Sampling:
         _set(self, "frames", round(self.seconds * sinc135.FPS))
         _set(self, "temperature", checked_number(self.temperature, "temperature", 0.0, MOST_TEMPERATURE))
         _set(self, "guidance", checked_number(self.guidance, "guidance", 0.0, MOST_GUIDANCE))
-        _set(self, "n", checked_whole(self.n, "n", 1))
+        _set(self, "n", checked_whole(self.n, "n", 1, limits().motions))
         _set(self, "steps", checked_whole(self.steps, "steps", 1, MOST_STEPS))
         _set(self, "seed", fresh_seed() if self.seed is None else checked_whole(self.seed, "seed", 0))
         if self.sampler not in SAMPLERS:

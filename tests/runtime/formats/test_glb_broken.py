@@ -67,18 +67,18 @@ def test_json_that_lies_about_its_size_or_is_too_big_is_not_read(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     path = sound().save(tmp_path / "clip.glb")
-    monkeypatch.setattr("motionrt.formats.gltf.container.JSON_LIMIT", 1000)
-    with pytest.raises(FormatError, match="bytes of JSON; at most 1000"):
+    monkeypatch.setenv("MOTIONRT_LIMITS", "json_bytes=1000")
+    with pytest.raises(FormatError, match="bytes of JSON: the limit json_bytes is 1,000"):
         load_rig(path)
 
 
 def test_json_that_is_damaged_or_deep_is_an_error(tmp_path: Path) -> None:
     path = tmp_path / "clip.glb"
     cases = {
-        b'{"asset":   ': "JSON is damaged",
-        b"[" * 200_000: "nested too deeply|damaged",
-        b"\xff\xfe{}": "damaged",
-        b'{"asset": {"version": "2.0"}, "x": NaN} ': "not a JSON number",
+        b'{"asset":   ': "is not JSON",
+        b"[" * 200_000: "nested too deep|not JSON",
+        b"\xff\xfe{}": "not UTF-8",
+        b'{"asset": {"version": "2.0"}, "x": NaN} ': "NaN is no number",
     }
     for text, message in cases.items():
         chunk = struct.pack("<II", len(text), 0x4E4F534A) + text

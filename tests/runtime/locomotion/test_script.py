@@ -231,7 +231,7 @@ def test_a_script_that_is_no_text_or_not_there_is_told(folder: FilePath) -> None
     (folder / "latin.yaml").write_bytes("steps: [{do: 'grüß'}]".encode("latin-1"))
     with pytest.raises(ScriptError, match="is not UTF-8 text"):
         Script.read(folder / "latin.yaml")
-    with pytest.raises(ScriptError, match="cannot be read"):
+    with pytest.raises(ScriptError, match="is a folder, not a file"):
         Script.read(folder)
 
 

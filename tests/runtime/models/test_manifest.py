@@ -148,7 +148,7 @@ def test_a_wrong_entry_is_named(tmp_path: Path, change: Callable[[Content], obje
 def test_a_file_that_is_no_yaml_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "models_manifest.yaml"
     path.write_text("models: [", encoding="utf-8")
-    with pytest.raises(ManifestError, match="is not a YAML file"):
+    with pytest.raises(ManifestError, match="is not YAML"):
         load_manifest(path)
 
 
@@ -157,7 +157,7 @@ def test_a_key_that_stands_there_twice_is_named_with_its_line(tmp_path: Path) ->
     lines = manifest.read_text(encoding="utf-8").splitlines()
     at = next(i for i, line in enumerate(lines) if "licence:" in line)
     manifest.write_text("\n".join([*lines[: at + 1], lines[at], *lines[at + 1 :]]), encoding="utf-8")
-    with pytest.raises(ManifestError, match=rf"the key 'licence' stands there twice[\s\S]*line {at + 2}"):
+    with pytest.raises(ManifestError, match=rf"yaml:{at + 2}: .*the key 'licence' stands there twice"):
         load_manifest(manifest)
 
 
@@ -189,7 +189,7 @@ def test_statistics_benchmarks_and_quality_are_read(tmp_path: Path) -> None:
 def test_a_yaml_tag_creates_no_object(tmp_path: Path) -> None:
     path = tmp_path / "models_manifest.yaml"
     path.write_text("!!python/object/apply:os.getcwd []", encoding="utf-8")
-    with pytest.raises(ManifestError, match="is not a YAML file"):
+    with pytest.raises(ManifestError, match="is not YAML"):
         load_manifest(path)
 
 

@@ -13,6 +13,7 @@ import pytest
 from fake_embedder import FakeEmbedder, open_fake, open_other
 from motions import random_motion, walking
 
+from motionrt import limits
 from motionrt.errors import GalleryError, GalleryNotFoundError, InvalidInputError, MotionFileNotFoundError
 from motionrt.formats import save_motion
 from motionrt.motion import Motion
@@ -220,7 +221,8 @@ def test_a_name_that_is_no_unicode_is_indexed(folder: Path) -> None:
 
 def test_a_motion_of_absurd_size_is_skipped(folder: Path) -> None:
     motion = walking(5)
-    huge = Motion(motion.rotations, motion.root * np.float32([1, 1, 3e37]), 20.0)
+    with limits.raised(metres=1e38):
+        huge = Motion(motion.rotations, motion.root * np.float32([1, 1, 3e37]), 20.0)
     save_motion(huge, folder / "huge.npz")
     skipped = {item.path: item.reason for item in build_gallery(folder, open_fake).gallery.skipped}
     assert "huge.npz" in skipped

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from motionrt.errors import FormatError
 from motionrt.formats.text import shorten, to_float
+from motionrt.limits import how_to_raise, limits
 
 _CHANNELS = {f"{axis}{kind}".lower(): f"{axis}{kind}" for axis in "XYZ" for kind in ("position", "rotation")}
 
@@ -55,6 +56,7 @@ class _HierarchyParser:
         ]
         self.at = 1
         self.joints: list[BvhJoint] = []
+        self._taken: dict[str, int] = {}
         self.open: list[int] = []
 
     def parse(self) -> list[BvhJoint]:
@@ -102,6 +104,8 @@ class _HierarchyParser:
         brace, brace_line = self._next(f"'{{' after '{name}'")
         if brace != "{":
             raise self._error(f"expected '{{' after '{name}', found '{shorten(brace)}'", brace_line)
+        if len(self.joints) >= limits().joints * 2:  # every joint may have an end site
+            raise self._error(f"more joints than are read: {how_to_raise('joints')}", line)
         self.open.append(len(self.joints))
         self.joints.append(BvhJoint(self._unique(name), parent, line, is_end=keyword == "END"))
 
@@ -114,16 +118,16 @@ class _HierarchyParser:
 
     def _unique(self, name: str) -> str:
         """The second joint of a name becomes ``<name>_2``, the third ``<name>_3``."""
-        taken = {joint.name for joint in self.joints}
-        candidate, count = name, 1
-        while candidate in taken:
+        candidate, count = name, self._taken.get(name, 0) + 1
+        while count > 1 and (candidate := f"{name}_{count}") in self._taken:
             count += 1
-            candidate = f"{name}_{count}"
+        self._taken[name] = max(count, 1)
+        self._taken.setdefault(candidate, 1)
         return candidate
 
     def _channels(self, joint: BvhJoint, line: int) -> None:
         word, _ = self._next("the number of channels")
-        if not word.isdecimal() or not 0 <= int(word) <= 6:
+        if not (word.isascii() and word.isdecimal() and len(word) < 10) or not 0 <= int(word) <= 6:
             raise self._error(f"a joint has 0 to 6 channels, not '{shorten(word)}'", line)
         if joint.channels:
             raise self._error(f"'{joint.name}' has two CHANNELS lines", line)

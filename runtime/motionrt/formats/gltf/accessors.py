@@ -12,7 +12,8 @@ import numpy as np
 import numpy.typing as npt
 
 from motionrt.errors import FormatError
-from motionrt.formats.gltf.container import FILE_LIMIT, Json
+from motionrt.formats.gltf.container import Json
+from motionrt.limits import how_to_raise, limits
 
 _TYPES = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 _COMPONENTS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
@@ -127,8 +128,8 @@ class GlbArrays:
             raise self._error(f"{what} lies in another file ('{uri[:60]}'); save everything in one .glb")
         if not place.is_file():
             raise self._error(f"{what} lies in '{uri[:60]}', which is not beside it; keep them together")
-        if place.stat().st_size > FILE_LIMIT:
-            raise self._error(f"'{uri[:60]}' has {place.stat().st_size} bytes; at most {FILE_LIMIT} are read")
+        if place.stat().st_size > limits().file_bytes:
+            raise self._error(f"'{uri[:60]}' has {place.stat().st_size} bytes: {how_to_raise('file_bytes')}")
         return place.read_bytes()
 
     def _entry(self, key: str, index: object, what: str) -> Json:

@@ -10,16 +10,12 @@ from typing import Any, BinaryIO
 
 from motionrt.errors import FormatError
 from motionrt.formats.text import require_file
+from motionrt.limits import how_to_raise, limits
+from motionrt.untrusted import json_text
 
 Json = dict[str, Any]
 
 GLTF_SUFFIXES = (".glb", ".gltf", ".vrm", ".vrma")
-
-JSON_LIMIT = 64 * 2**20
-"""Bytes of JSON that are parsed at most; a character with hundreds of animations has a few megabytes."""
-
-FILE_LIMIT = 2**31
-"""Bytes of a whole file that are read at most."""
 
 _MAGIC, _JSON, _BIN = 0x46546C67, 0x4E4F534A, 0x004E4942
 
@@ -70,22 +66,20 @@ def _read(file: BinaryIO, size: int, path: Path) -> tuple[Json, bytes]:
         raise FormatError(path, f"is GLB version {version}; only version 2 can be read")
     if length > size:
         raise FormatError(path, f"the file ends after {size} of its {length} bytes: the copy is not complete")
-    if length > FILE_LIMIT:
-        raise FormatError(path, f"has {length} bytes; at most {FILE_LIMIT} are read")
-    kind, text = _next_chunk(file, 12, length, path, JSON_LIMIT)
+    kind, text = _next_chunk(file, 12, length, path, limits().json_bytes)
     if kind != _JSON:
         raise FormatError(path, "its first chunk is not JSON")
     at = 20 + len(text)
     binary = b""
     if at + 8 <= length:
-        kind, block = _next_chunk(file, at, length, path, FILE_LIMIT)
+        kind, block = _next_chunk(file, at, length, path, limits().file_bytes)
         binary = block if kind == _BIN else b""
     return _parse(text, path), binary
 
 
 def _rest_of_text(file: BinaryIO, size: int, path: Path) -> bytes:
-    if size > JSON_LIMIT:
-        raise FormatError(path, f"holds {size} bytes of JSON; at most {JSON_LIMIT} are read")
+    if size > limits().json_bytes:
+        raise FormatError(path, f"holds {size} bytes of JSON: {how_to_raise('json_bytes')}")
     return file.read()
 
 
@@ -98,26 +92,18 @@ def _next_chunk(file: BinaryIO, at: int, end: int, path: Path, limit: int) -> tu
         raise FormatError(path, f"a chunk of {length} bytes does not fit into the file: it is damaged")
     if length > limit:
         what = "JSON" if kind == _JSON else "binary data"
-        raise FormatError(path, f"holds {length} bytes of {what}; at most {limit} are read")
+        name = "json_bytes" if kind == _JSON else "file_bytes"
+        raise FormatError(path, f"holds {length:,} bytes of {what}: {how_to_raise(name)}")
     return kind, file.read(length)
 
 
 def _parse(text: bytes, path: Path) -> Json:
-    try:
-        document = json.loads(text.decode("utf-8-sig"), parse_constant=_no_constant)
-    except RecursionError:
-        raise FormatError(path, "its JSON is nested too deeply") from None
-    except ValueError as error:  # JSONDecodeError and UnicodeDecodeError
-        raise FormatError(path, f"its JSON is damaged: {error}") from error
+    document = json_text.parse(text, lambda reason, _: FormatError(path, reason))
     if not isinstance(document, dict) or not isinstance(document.get("asset"), dict):
         raise FormatError(path, "its JSON is not a glTF document: it has no asset")
     if not str(document["asset"].get("version", "")).startswith("2."):
         raise FormatError(path, "is not glTF 2; save it again as glTF 2.0")
     return document
-
-
-def _no_constant(word: str) -> float:
-    raise ValueError(f"{word} is not a JSON number")
 
 
 def _not_glb(head: bytes) -> str:

@@ -18,6 +18,7 @@ from motionrt.formats.gltf.humanoid import humanoid_nodes
 from motionrt.formats.gltf.nodes import NodeTree, read_nodes
 from motionrt.formats.gltf.skeleton import GlbSkeleton, find_skeleton
 from motionrt.formats.gltf.tracks import Track, count_keys, read_tracks
+from motionrt.limits import how_to_raise, limits
 from motionrt.motion.rotations import Array, quaternion_to_matrix
 from motionrt.motion.skeleton import FloatArray
 from motionrt.rigs.clip import RigClip
@@ -93,6 +94,13 @@ class GlbDocument:
         frames, rate, times = 1, USUAL_FPS if fps is None else float(fps), np.zeros(1)
         if tracks:
             start, rate, frames = frame_times((track.times for track in tracks.values()), fps)
+            keys = max(len(track.times) for track in tracks.values())
+            if frames > min(max(limits().stretched_frames, 50 * keys), limits().frames):
+                raise FormatError(
+                    self.path,
+                    f"its animation of {keys} keys has {frames:,} frames at {rate:g} fps; cut it, give a lower fps=, "
+                    f"or: {how_to_raise('stretched_frames')}",
+                )
             if frames * len(self.skeleton.nodes) > VALUE_LIMIT:
                 raise FormatError(self.path, f"its animation has {frames} frames at {rate:g} fps; cut it")
             times = start + np.arange(frames) / rate

@@ -12,9 +12,10 @@ from motionrt.formats.gltf.accessors import GlbArrays
 from motionrt.formats.gltf.choice import chosen, names_of
 from motionrt.formats.gltf.container import Json
 from motionrt.formats.gltf.nodes import NodeTree
+from motionrt.limits import how_to_raise, limits
 from motionrt.motion.rotations import Array
 
-JOINT_LIMIT, SKIN_LIMIT = 2048, 256
+SKIN_LIMIT = 256
 _UNEVEN = 0.01
 _CLEARLY_LARGER = 2.0
 
@@ -49,8 +50,8 @@ def find_skeleton(document: Json, tree: NodeTree, path: Path, skin: int | str | 
         raise FormatError(path, "holds no skeleton: neither a skin nor an animated node")
     joints = _one_tree(joints, tree, path)
     members = _completed(tree.with_above(joints), moving, document, tree)
-    if len(members) > JOINT_LIMIT:
-        raise FormatError(path, f"has a skeleton of {len(members)} joints; at most {JOINT_LIMIT} are read")
+    if len(members) > limits().joints:
+        raise FormatError(path, f"has a skeleton of {len(members)} joints: {how_to_raise('joints')}")
     nodes = [node for node in tree.order if node in members]
     parents = [nodes.index(tree.parents[node]) if tree.parents[node] >= 0 else -1 for node in nodes]
     units = _units(nodes, parents, tree, path)

@@ -7,7 +7,8 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from motionrt.errors import InvalidInputError
+from motionrt.errors import InvalidInputError, SceneError
+from motionrt.limits import how_to_raise, limits
 from motionrt.locomotion.scene.agent import Agent
 from motionrt.locomotion.scene.floors import nearest_floor, reachable_floor, standing_places
 from motionrt.locomotion.scene.grid import BoolArray, Grid, Points
@@ -25,6 +26,8 @@ def flat_grid(walkable: BoolArray, origin: Points, cell: float, agent: Agent) ->
         raise InvalidInputError(f"walkable cells must have the shape (H, W), not {walkable.shape}")
     if not (np.isfinite(cell) and cell > 0):
         raise InvalidInputError(f"cell must be a positive number of metres, not {cell}")
+    if walkable.size > limits().cells:
+        raise SceneError(f"{walkable.shape[1]} x {walkable.shape[0]} cells are too many: {how_to_raise('cells')}")
     return Grid(walkable, np.where(walkable, 0, np.nan).astype(np.float32), origin, cell, agent.radius)
 
 

@@ -9,7 +9,10 @@ import numpy as np
 import numpy.typing as npt
 
 from motionrt.errors import InvalidInputError, SceneError
+from motionrt.limits import how_to_raise, limits
+from motionrt.locomotion.scene.mesh_files import Beside, check_claims
 from motionrt.locomotion.scene.optional import require_scene_file, scene_package
+from motionrt.untrusted.words import shorten
 
 Triangles = npt.NDArray[np.float64]
 UpAxis = Literal["y", "z"]
@@ -40,6 +43,10 @@ def read_triangles(source: str | Path | MeshArrays, *, up: UpAxis = "y", scale: 
     if not np.isfinite(vertices).all():
         raise SceneError(f"{_name(source)} holds vertices that are not finite")
     points = vertices * scale
+    if len(faces) > limits().triangles:
+        raise SceneError(f"{_name(source)} holds {len(faces):,} triangles: {how_to_raise('triangles')}")
+    if not np.abs(points).max(initial=0.0) <= limits().metres:
+        raise SceneError(f"{_name(source)} reaches too far from its origin; check scale=, or: {how_to_raise('metres')}")
     if up == "z":
         points = points[:, [0, 2, 1]] * (1, 1, -1)
     return np.asarray(points[faces])
@@ -59,10 +66,22 @@ def _checked(vertices: npt.ArrayLike, faces: npt.ArrayLike) -> tuple[Triangles, 
 
 
 def _load(path: Path) -> tuple[Triangles, npt.NDArray[np.int64]]:
+    """Vertices and faces by trimesh; buffers of a ``.gltf`` are looked for in its own folder alone."""
     require_scene_file(path)
+    check_claims(path)
     trimesh = scene_package("trimesh", f"reading the mesh {path.name}")
     try:
-        mesh = trimesh.load(path, force="mesh", skip_materials=True)
-        return np.asarray(mesh.vertices, dtype=np.float64), np.asarray(mesh.faces, dtype=np.int64).reshape(-1, 3)
+        with path.open("rb") as file:
+            kind = path.suffix.lower().lstrip(".")
+            mesh = trimesh.load(
+                file, file_type=kind, force="mesh", skip_materials=True, process=False, resolver=Beside(path)
+            )
+        vertices = np.asarray(mesh.vertices, dtype=np.float64).reshape(-1, 3)
+        faces = np.asarray(mesh.faces, dtype=np.int64).reshape(-1, 3)
+    except SceneError:
+        raise
     except Exception as error:  # a parser of a dozen formats may raise anything
-        raise SceneError(f"{path} cannot be read as a mesh: {error}") from error
+        raise SceneError(f"{path} cannot be read as a mesh: {shorten(str(error), 200)}") from error
+    if faces.size and not (faces.min() >= 0 and faces.max() < len(vertices)):
+        raise SceneError(f"{path}: its faces name vertices outside 0..{len(vertices) - 1}")
+    return vertices, faces

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from motionrt.errors import MotionFileNotFoundError, SceneError
+from motionrt.untrusted.files import check_file
 
 
 def scene_package(name: str, purpose: str) -> Any:
@@ -20,8 +21,8 @@ def scene_package(name: str, purpose: str) -> Any:
 
 
 def require_scene_file(path: Path) -> None:
-    """Raise unless ``path`` is a file."""
-    if path.is_dir():
-        raise SceneError(f"{path} is a folder, not a scene file")
-    if not path.exists():
-        raise MotionFileNotFoundError(f"no such scene file: {path}")
+    """Raise unless ``path`` is a plain file of a size that can be read."""
+    try:
+        check_file(path, lambda reason, _: SceneError(f"{path} {reason}"))
+    except FileNotFoundError as error:
+        raise MotionFileNotFoundError(f"no such scene file: {path}") from error

@@ -8,11 +8,10 @@ import numpy as np
 import numpy.typing as npt
 
 from motionrt.errors import InvalidInputError, SceneError
+from motionrt.limits import how_to_raise, limits
 from motionrt.locomotion.scene.grid import BoolArray, Points
 
 Polygons = Sequence[npt.ArrayLike]
-
-_MOST_CELLS = 60_000_000
 
 
 def draw_polygons(outlines: Polygons, obstacles: Polygons, cell: float) -> tuple[BoolArray, Points]:
@@ -42,11 +41,11 @@ def grid_size(low: Points, high: Points, cell: float) -> tuple[int, int]:
     if not (np.isfinite(cell) and cell > 0):
         raise InvalidInputError(f"cell must be a positive number of metres, not {cell}")
     columns, rows = np.maximum(np.ceil((high - low) / cell - 1e-6), 1)
-    if columns * rows > _MOST_CELLS:
+    if not columns * rows <= limits().cells:
         wide, deep = high - low
         raise SceneError(
             f"{wide:.0f} x {deep:.0f} m in cells of {cell:g} m is too large a grid: give a larger cell=, or scale=0.01 "
-            f"if the file is in centimetres (0.001 for millimetres)"
+            f"if the file is in centimetres (0.001 for millimetres); {how_to_raise('cells')}"
         )
     return int(columns), int(rows)
 
@@ -55,6 +54,10 @@ def _polygon(points: npt.ArrayLike, kind: str, index: int) -> Points:
     polygon = np.asarray(points, dtype=np.float64)
     if polygon.ndim != 2 or polygon.shape[1] != 2 or len(polygon) < 3 or not np.isfinite(polygon).all():
         raise InvalidInputError(f"{kind} {index} must be at least three finite points (N, 2), not {polygon.shape}")
+    if len(polygon) > limits().path_points:
+        raise InvalidInputError(f"{kind} {index} has {len(polygon):,} corners: {how_to_raise('path_points')}")
+    if not np.abs(polygon).max() <= limits().metres:
+        raise InvalidInputError(f"{kind} {index} reaches too far from the origin: {how_to_raise('metres')}")
     return polygon
 
 

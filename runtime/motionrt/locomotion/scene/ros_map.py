@@ -16,12 +16,17 @@ import numpy as np
 import numpy.typing as npt
 
 from motionrt.errors import InvalidInputError, SceneError
+from motionrt.limits import how_to_raise, limits
 from motionrt.locomotion.scene.grid import BoolArray, Points
 from motionrt.locomotion.scene.images import Grey, read_grey
 from motionrt.locomotion.scene.optional import require_scene_file
 from motionrt.motion.skeleton import FloatArray
+from motionrt.untrusted import yaml_text
+from motionrt.untrusted.files import beside, read_utf8
+from motionrt.untrusted.words import shown
 
 Mode = Literal["trinary", "scale", "raw"]
+_BATCH = 1_000_000  # cells of a turned map in memory at once
 
 
 @dataclass(frozen=True)
@@ -51,6 +56,8 @@ class MapInfo:
             raise SceneError(f"resolution must be a positive number of metres per pixel, not {self.resolution}")
         if not all(map(math.isfinite, self.origin)):
             raise SceneError(f"origin must be three finite numbers (x, y, yaw), not {self.origin}")
+        if max(self.resolution, *map(abs, self.origin)) > limits().metres:
+            raise SceneError(f"resolution or origin is too large to be metres: {how_to_raise('metres')}")
         if not 0 <= self.free <= self.occupied <= 1:
             raise SceneError(f"need 0 <= free_thresh <= occupied_thresh <= 1, not {self.free} and {self.occupied}")
 
@@ -74,35 +81,50 @@ def read_map_info(path: Path) -> MapInfo:
     """
     import yaml
 
+    def fail(reason: str, line: int | None) -> SceneError:
+        return SceneError(f"{path}{f':{line}' if line else ''}: {reason}")
+
     require_scene_file(path)
-    try:
-        fields = yaml.safe_load(path.read_text(encoding="utf-8"))
-    except (yaml.YAMLError, UnicodeDecodeError) as error:
-        raise SceneError(f"{path} is not a YAML file: {error}") from error
+    fields = yaml_text.parse(read_utf8(path, fail, "yaml_bytes"), yaml.SafeLoader, fail)
     if not isinstance(fields, dict) or not {"image", "resolution"} <= fields.keys():
         raise SceneError(f"{path} is not a map: it needs at least the keys image and resolution")
     try:
         return _info(fields, path)
-    except (TypeError, ValueError) as error:
+    except SceneError as error:
         raise SceneError(f"{path}: {error}") from error
 
 
 def _info(fields: dict[str, Any], path: Path) -> MapInfo:
-    origin = [float(value) for value in fields.get("origin", (0, 0, 0))]
-    if len(origin) != 3:
-        raise SceneError(f"origin must be three numbers (x, y, yaw), not {origin}")
-    mode = str(fields.get("mode", "trinary"))
-    if mode not in {"trinary", "scale", "raw"}:
-        raise SceneError(f"mode '{mode}' is none of trinary, scale, raw")
+    origin = fields.get("origin", (0, 0, 0))
+    if not isinstance(origin, list | tuple) or len(origin) != 3:
+        raise SceneError(f"origin must be three numbers (x, y, yaw), not {shown(origin)}")
+    mode = fields.get("mode", "trinary")
+    if mode not in ("trinary", "scale", "raw"):
+        raise SceneError(f"mode {shown(mode)} is none of trinary, scale, raw")
+    image = fields["image"]
+    if not isinstance(image, str) or not image.strip():
+        raise SceneError(f"image must be the name of a picture, not {shown(image)}")
+    x, y, yaw = (_number(value, "origin", "three finite numbers (x, y, yaw)") for value in origin)
     return MapInfo(
-        image=path.parent / str(fields["image"]),
-        resolution=float(fields["resolution"]),
-        origin=(origin[0], origin[1], origin[2]),
-        negate=bool(int(fields.get("negate", 0))),
-        occupied=float(fields.get("occupied_thresh", 0.65)),
-        free=float(fields.get("free_thresh", 0.196)),
+        image=beside(path.parent, image, lambda reason, _: SceneError(reason)),
+        resolution=_number(fields["resolution"], "resolution"),
+        origin=(x, y, yaw),
+        negate=bool(_number(fields.get("negate", 0), "negate")),
+        occupied=_number(fields.get("occupied_thresh", 0.65), "occupied_thresh"),
+        free=_number(fields.get("free_thresh", 0.196), "free_thresh"),
         mode=cast("Mode", mode),
     )
+
+
+def _number(value: object, key: str, what: str = "a finite number") -> float:
+    """A finite number; one in quotes counts, as do true and false for ``negate``."""
+    try:
+        number = float(value) if isinstance(value, str | int | float) else math.nan
+    except (ValueError, OverflowError):
+        number = math.nan
+    if not math.isfinite(number):
+        raise SceneError(f"{key} must be {what}, not {shown(value)}")
+    return number
 
 
 def free_pixels(grey: Grey, info: MapInfo, *, unknown_free: bool = False) -> BoolArray:
@@ -132,19 +154,24 @@ def read_map(info: MapInfo, *, unknown_free: bool = False) -> tuple[BoolArray, P
 
 
 def _turned(free: BoolArray, info: MapInfo) -> tuple[BoolArray, Points]:
-    """A turned map on upright cells: each takes the pixel under its centre."""
+    """A turned map on upright cells: each takes the pixel under its centre, rows in batches."""
     x, y, yaw = info.origin
     right, up = np.array([math.cos(yaw), -math.sin(yaw)]), np.array([-math.sin(yaw), -math.cos(yaw)])  # as (x, z)
     height, width = free.shape
     edges = [a * width * info.resolution * right + b * height * info.resolution * up for a in (0, 1) for b in (0, 1)]
     low = np.array([x, -y]) + np.min(edges, axis=0)
     columns, rows = np.ceil(np.ptp(edges, axis=0) / info.resolution - 1e-6).astype(int)
-    places = np.stack(np.meshgrid(np.arange(columns), np.arange(rows)), axis=-1) + 0.5
-    offsets = low + places * info.resolution - (x, -y)
-    column = np.floor(offsets @ right / info.resolution).astype(int)
-    row = height - 1 - np.floor(offsets @ up / info.resolution).astype(int)
-    inside = (column >= 0) & (row >= 0) & (column < width) & (row < height)
-    return inside & free[np.where(inside, row, 0), np.where(inside, column, 0)], low
+    if columns * rows > limits().cells:
+        raise SceneError(f"the turned map needs {columns} x {rows} cells: {how_to_raise('cells')}")
+    turned = np.zeros((rows, columns), dtype=bool)
+    for first in range(0, rows, step := max(1, _BATCH // columns)):
+        places = np.stack(np.meshgrid(np.arange(columns), np.arange(first, min(first + step, rows))), axis=-1) + 0.5
+        offsets = low + places * info.resolution - (x, -y)
+        column = np.floor(offsets @ right / info.resolution).astype(int)
+        row = height - 1 - np.floor(offsets @ up / info.resolution).astype(int)
+        inside = (column >= 0) & (row >= 0) & (column < width) & (row < height)
+        turned[first : first + step] = inside & free[np.where(inside, row, 0), np.where(inside, column, 0)]
+    return turned, low
 
 
 def map_info(path: Path, resolution: float | None) -> MapInfo:
@@ -156,7 +183,7 @@ def map_info(path: Path, resolution: float | None) -> MapInfo:
     require_scene_file(path)
     if resolution is not None:
         return MapInfo(path, resolution)
-    for beside in (path.with_suffix(".yaml"), path.with_suffix(".yml")):
-        if beside.exists():
-            return read_map_info(beside)
+    for described in (path.with_suffix(".yaml"), path.with_suffix(".yml")):
+        if described.exists():
+            return read_map_info(described)
     raise SceneError(f"{path} has no YAML file beside it: give resolution= in metres per pixel")

@@ -9,8 +9,10 @@ import numpy as np
 import numpy.typing as npt
 
 from motionrt.errors import InvalidInputError
+from motionrt.limits import how_to_raise, limits
 from motionrt.locomotion.words.vocabulary import FLOORS, find_label, normal
 from motionrt.motion.skeleton import FloatArray
+from motionrt.untrusted.words import shorten, shown
 
 _VOXEL = 0.08  # metres; points of one voxel belong together
 
@@ -43,14 +45,18 @@ class SemanticCloud:
         labels: Sequence[str] | Sequence[int] | npt.NDArray[np.generic],
         names: Sequence[str] | Mapping[int, str] | None = None,
     ) -> None:
-        array = np.array(points, dtype=np.float32)
-        values, index = np.unique(np.asarray(labels), return_inverse=True)
+        array = _numbers(points)
+        values, index = np.unique(_labels(labels), return_inverse=True)
         if array.ndim != 2 or array.shape[1] != 3 or not len(array) or index.shape != (len(array),):
             raise InvalidInputError(
                 f"a cloud needs points (N, 3) and N labels, not {array.shape} and {np.shape(labels)}"
             )
         if not np.isfinite(array).all():
             raise InvalidInputError("a cloud's points must be finite numbers")
+        if len(array) > limits().cloud_points:
+            raise InvalidInputError(f"a cloud of {len(array):,} points is too large: {how_to_raise('cloud_points')}")
+        if np.abs(array).max() > limits().metres:
+            raise InvalidInputError(f"a cloud's points lie too far from the origin: {how_to_raise('metres')}")
         array.setflags(write=False)
         object.__setattr__(self, "points", array)
         object.__setattr__(self, "names", _names(values, names))
@@ -63,7 +69,7 @@ class SemanticCloud:
         """The label that ``name`` means; InvalidInputError lists the labels there are."""
         found = find_label(name, self.names)
         if found is None:
-            raise InvalidInputError(f"no '{name}' in the scene; it has: {', '.join(sorted(self.names))}")
+            raise InvalidInputError(f"no '{name}' in the scene; it has: {shorten(', '.join(sorted(self.names)), 500)}")
         return found
 
     def of(self, label: str) -> FloatArray:
@@ -109,13 +115,31 @@ class SemanticCloud:
         return sorted(things, key=len, reverse=True)
 
 
+def _numbers(points: npt.ArrayLike) -> FloatArray:
+    try:
+        with np.errstate(over="ignore"):
+            return np.array(points, dtype=np.float32)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise InvalidInputError(f"a cloud's points must be numbers (N, 3), not {shown(points)}") from error
+
+
+def _labels(labels: object) -> npt.NDArray[np.generic]:
+    try:
+        found = np.asarray(labels)
+    except ValueError as error:  # lists of different lengths
+        raise InvalidInputError(f"a cloud's labels must be a list (N,), not {shown(labels)}") from error
+    if not found.size:
+        return found.astype(str).reshape(-1)
+    if found.ndim != 1 or found.dtype.kind not in "USiu":
+        raise InvalidInputError(f"labels must be strings or integers (N,), not {found.dtype} {found.shape}")
+    return found
+
+
 def _names(values: npt.NDArray[np.generic], names: Sequence[str] | Mapping[int, str] | None) -> tuple[str, ...]:
     if values.dtype.kind in "US":
-        return tuple(str(value) for value in values)
-    if values.dtype.kind not in "iu":
-        raise InvalidInputError(f"labels must be strings or integers, not {values.dtype}")
+        return tuple(value.decode("utf-8", "replace") if isinstance(value, bytes) else str(value) for value in values)
     table = dict(names) if isinstance(names, Mapping) else dict(enumerate(names or ()))
     missing = [int(value) for value in values.tolist() if value not in table]
     if missing and names is not None:
-        raise InvalidInputError(f"labels {missing[:5]} have no name; names has: {sorted(table)[:20]}")
-    return tuple(table.get(value, str(value)) for value in values.tolist())
+        raise InvalidInputError(f"labels {missing[:5]} have no name; names has: {shown(sorted(table)[:20])}")
+    return tuple(str(table.get(value, value)) for value in values.tolist())

@@ -89,7 +89,7 @@ def test_an_npz_is_read_with_words_or_numbers(tmp_path: Path, labels: np.ndarray
         ("a.csv", "x,y,label\n0,0,sofa\n", "needs the columns x, y, z and label"),
         ("a.csv", "x,y,z,label\n0,0,0,sofa\n0,zero,0,sofa\n", "a.csv:3: expected three numbers and a label"),
         ("a.csv", "x,y,z,label\n0,0\n", "a.csv:2: expected three numbers and a label"),
-        ("a.npz", "nothing", "is no npz file"),
+        ("a.npz", "nothing", "no npz file"),
         ("a.xyz", "0 0 0", "a semantic cloud is one of .ply, .csv, .npz"),
     ],
 )

@@ -1,0 +1,123 @@
+"""One door in a process of its own, with a limit on its time and its memory: what came out, and what it cost."""
+
+from __future__ import annotations
+
+import os
+import pickle
+import resource
+import select
+import signal
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+from doors import DOORS
+
+CPU_S, MEMORY_MB, WALL_S = 2.0, 512, 120.0
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What a door made of a file.
+
+    Attributes:
+        kind: ``loaded``, ``typed``, ``untyped`` or ``killed``.
+        error: the name of the error's class.
+        message: its words.
+        cpu_s: CPU seconds.
+        memory_mb: MiB that the process grew by.
+    """
+
+    kind: str
+    error: str = ""
+    message: str = ""
+    cpu_s: float = 0.0
+    memory_mb: float = 0.0
+
+    @property
+    def good(self) -> bool:
+        """Read or refused, at a cost that a small file may have."""
+        modest = self.cpu_s <= CPU_S and self.memory_mb <= MEMORY_MB
+        return self.kind in {"loaded", "typed"} and modest and len(self.message) <= 2000
+
+
+def measured(door: str, path: Path) -> Outcome:
+    """Call a door in a forked process; the process has all modules already, so that only the file counts."""
+    ours, theirs = os.pipe()
+    pid = os.fork()
+    if pid == 0:
+        os.close(ours)
+        _child(door, path, theirs)
+    os.close(theirs)
+    said = _heard(ours, pid)
+    os.close(ours)
+    _, status, used = os.wait4(pid, 0)
+    cpu = used.ru_utime + used.ru_stime
+    if not said:
+        return Outcome("killed", f"signal {os.WTERMSIG(status)}" if os.WIFSIGNALED(status) else "exit", cpu_s=cpu)
+    kind, error, message, memory, cpu = pickle.loads(said)
+    return Outcome(kind, error, message, cpu, memory)
+
+
+def warm() -> None:
+    """Import what the doors import, so that no case pays for it."""
+    import csv  # noqa: F401
+    import zipfile  # noqa: F401
+
+    import scipy.ndimage
+    import scipy.sparse.csgraph
+    import scipy.spatial  # noqa: F401
+    import yaml  # noqa: F401
+
+    import motionrt.formats
+    import motionrt.locomotion
+    import motionrt.locomotion.scene
+    import motionrt.locomotion.words
+    import motionrt.models.reading
+    import motionrt.models.text
+    import motionrt.retrieval.gallery
+    import motionrt.synthesis.parts  # noqa: F401
+
+    try:
+        import PIL.Image
+        import trimesh
+
+        PIL.Image.init()
+        assert trimesh.available_formats()
+    except ImportError:
+        pass
+
+
+def _child(door: str, path: Path, pipe: int) -> None:
+    from motionrt.errors import MotionRTError
+
+    limit = int(CPU_S) * 5
+    resource.setrlimit(resource.RLIMIT_CPU, (limit, limit))
+    ceiling = _virtual() + 4 * MEMORY_MB * 2**20
+    resource.setrlimit(resource.RLIMIT_AS, (ceiling, ceiling))
+    before, began = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss, time.process_time()
+    kind, error, message = "loaded", "", ""
+    try:
+        DOORS[door](path)
+    except MotionRTError as refused:
+        kind, error, message = "typed", type(refused).__name__, str(refused)
+    except BaseException as other:  # noqa: BLE001  # it is told
+        kind, error, message = "untyped", type(other).__name__, str(other)[:300]
+    memory = (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) / 1024
+    os.write(pipe, pickle.dumps((kind, error, message[:50_000], memory, time.process_time() - began)))
+    os._exit(0)
+
+
+def _heard(pipe: int, pid: int) -> bytes:
+    ready, _, _ = select.select([pipe], [], [], WALL_S)
+    if not ready:
+        os.kill(pid, signal.SIGKILL)
+        return b""
+    parts = []
+    while block := os.read(pipe, 1 << 16):
+        parts.append(block)
+    return b"".join(parts)
+
+
+def _virtual() -> int:
+    return int(Path("/proc/self/statm").read_text(encoding="ascii").split()[0]) * resource.getpagesize()
