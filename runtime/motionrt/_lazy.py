@@ -1,4 +1,4 @@
-"""Packages whose names are imported when they are first asked for: each road then waits for its own modules alone."""
+"""Packages whose names are imported when they are first asked for: each use then waits for its own modules alone."""
 
 from __future__ import annotations
 

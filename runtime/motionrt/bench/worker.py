@@ -35,7 +35,7 @@ def measure(
 ) -> dict[str, Any]:
     """p50 and p95 of every case of the benchmarks, with those of the rivals beside them where they have the case.
 
-    Roads whose models the manifest does not hold are left out, and so are those whose models cannot do it. With
+    Benchmarks whose models the manifest does not hold are left out, and so are those whose models cannot do it. With
     ``strict`` everything is timed again, call by call in turn.
     """
     how = turns or Turns()

@@ -1,6 +1,6 @@
-"""ONNX models and text encoding: the only room that knows of ONNX. Nothing heavy is imported until used.
+"""ONNX models and text encoding: the only package that knows of ONNX. Nothing heavy is imported until used.
 
-The names below are loaded when they are first used, so that each road waits for its own models alone.
+The names below are loaded when they are first used, so that each use waits for its own models alone.
 """
 
 from __future__ import annotations

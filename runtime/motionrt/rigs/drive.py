@@ -1,4 +1,4 @@
-"""Which way the joints of a user's rig are turned when ``smpl24`` is in a pose: ``rig_alignment`` backwards."""
+"""Which way the joints of a user's rig are turned when ``smpl24`` is in a pose: ``alignment`` backwards."""
 
 from __future__ import annotations
 

@@ -1,9 +1,9 @@
 """Retargeting out: a :class:`Motion` of ``smpl24`` onto a character of the user's own.
 
-1. The rig is understood as on the way in (``rig_stance``): roles, a standing pose, alignments, the vertical.
-2. Its joints follow their counterparts; spines of other lengths share the turns (``rig_drive``).
+1. The rig is understood as on the way in (``stance``): roles, a standing pose, alignments, the vertical.
+2. Its joints follow their counterparts; spines of other lengths share the turns (``drive``).
 3. Hips and path are scaled by the length of the legs; legs are bent so that the toes stand where those of the source
-   stand, on the rig's own soles (``rig_legs``).
+   stand, on the rig's own soles (``legs``).
 4. What has no counterpart (fingers, twist bones, props) stays as it is at rest.
 """
 

@@ -2,7 +2,7 @@
 
 Legs and arms are the two pairs of like chains; the pair at the root's end of the trunk is the legs. Sides that the
 names state bind both pairs; without any, legs and arms are on the same side where they stand on the same side, and
-which one that is, the body says (see ``rig_axes``).
+which one that is, the body says (see ``axes``).
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """TEMOS (Petrovich et al. 2022) as SINC uses it: a variational autoencoder of motion whose latents text predicts, too.
 
 What is this project's own: the networks see `networks.egocentric` frames instead of `sinc135`, `patch` frames to a
-token; and around the transformers of the motion runs a linear road, from all tokens to the latent and back, which they
+token; and around the transformers of the motion runs a linear path, from all tokens to the latent and back, which they
 refine. A linear autoencoder learns in minutes what a transformer with distribution tokens alone takes days to find:
 where in time things happen.
 """

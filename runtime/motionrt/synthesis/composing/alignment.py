@@ -18,14 +18,14 @@ Align = Literal["start", "stretch", "phase"]
 LONGEST_S = 600.0  # seconds; a loop of ten minutes
 
 
-def aligned(motions: Sequence[Motion], carrier: int, align: Align, seconds: float | None) -> list[Motion]:
+def aligned(motions: Sequence[Motion], leader: int, align: Align, seconds: float | None) -> list[Motion]:
     """``motions``, all of one frame rate, with the same number of frames.
 
     Args:
         motions: at one frame rate; one of a single frame is a pose, held as long as the others last.
-        carrier: number of the motion that moves the pelvis; its own timing is changed as little as may be.
+        leader: number of the motion that moves the pelvis; its own timing is changed as little as may be.
         align: "start" plays all from their first frame. "stretch" plays each from its first to its last frame, in
-            the time of the carrier. "phase" reads the others so that they step when the carrier steps.
+            the time of the leader. "phase" reads the others so that they step when the leader steps.
         seconds: length wanted. "start" and "phase" cut or loop to it, "stretch" makes everything slower or faster.
             ``None``: "start" and "phase" trim to the shortest.
 
@@ -39,9 +39,9 @@ def aligned(motions: Sequence[Motion], carrier: int, align: Align, seconds: floa
     moving = [number for number, motion in enumerate(motions) if motion.frames > 1]
     if not moving:
         return [held(motion, frames or 1) for motion in motions]
-    lead = carrier if carrier in moving else moving[0]
-    road: Callable[..., dict[int, Motion]] = {"start": _from_start, "stretch": _stretched, "phase": _in_step}[align]
-    found = road({number: motions[number] for number in moving}, lead, frames)
+    lead = leader if leader in moving else moving[0]
+    align_by: Callable[..., dict[int, Motion]] = {"start": _from_start, "stretch": _stretched, "phase": _in_step}[align]
+    found = align_by({number: motions[number] for number in moving}, lead, frames)
     shortest = min(motion.frames for motion in found.values())
     return [found[n][:shortest] if n in found else held(motion, shortest) for n, motion in enumerate(motions)]
 
