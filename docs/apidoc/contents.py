@@ -13,6 +13,10 @@ PAGES: dict[str, Page] = {
         (
             "motionrt:Motion", "motionrt:Skeleton", "motionrt:SMPL24", "motionrt:PARTS", "motionrt:load_motion",
             "motionrt:load_rig", "motionrt:load_target", "motionrt:save_motion", "motionrt.rigs.clip:RigClip",
+            "motionrt.formats:motion_file_info", "motionrt.formats:MotionFileInfo", "motionrt.formats:find_motions",
+            "motionrt.formats:animations_of", "motionrt.rigs.certify:certify", "motionrt.rigs.certify:Certificate",
+            "motionrt.rigs.certify:ProbeResult", "motionrt.rigs.mapping:draft_mapping",
+            "motionrt.rigs.mapping:load_mapping", "motionrt.rigs.mapping:save_mapping",
         ),
     ),
     "search": (

@@ -45,6 +45,10 @@ class MotionFileNotFoundError(MotionRTError, FileNotFoundError):
     """A motion file, or a file it depends on (an ``.asf`` skeleton), does not exist."""
 
 
+class MotionFileWarning(UserWarning):
+    """A motion file was read, but not all of it could be taken at its word; the message says what was done."""
+
+
 class RigError(MotionRTError, ValueError):
     """A rig cannot be mapped to the ``smpl24`` skeleton; the message names the missing joints and the remedy."""
 

@@ -19,6 +19,7 @@ from motionrt.cli import (
     describe,
     galleries,
     generate,
+    info,
     models,
     moments,
     parts,
@@ -26,12 +27,14 @@ from motionrt.cli import (
     render,
     retarget,
     retrieve,
+    rig,
     similar,
     studio,
     view,
     walk,
 )
 from motionrt.cli.console import close_quietly, prepare_streams, say
+from motionrt.cli.reading import in_options, shown_warnings
 from motionrt.errors import MotionRTError
 
 ERROR, MISTAKE, INTERRUPTED, BROKEN_PIPE = 1, 70, 130, 141
@@ -48,8 +51,10 @@ _COMMANDS = (
     walk,
     perform,
     render,
+    info,
     convert,
     retarget,
+    rig,
     view,
     studio,
     models,
@@ -62,12 +67,13 @@ def main(argv: Sequence[str] | None = None) -> int:
     prepare_streams()
     try:
         arguments = _parser().parse_args(argv)
-        code = int(arguments.run(arguments))
+        with shown_warnings():
+            code = int(arguments.run(arguments))
         sys.stdout.flush()
     except SystemExit as stop:  # how argparse ends: help, version, usage
         return stop.code if isinstance(stop.code, int) else 0
     except MotionRTError as error:
-        say(f"motionrt: error: {' '.join(str(error).split())}")
+        say(f"motionrt: error: {in_options(' '.join(str(error).split()))}")
         return ERROR
     except BrokenPipeError:  # the reader, head perhaps, has seen enough
         close_quietly()

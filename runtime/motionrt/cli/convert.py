@@ -1,41 +1,158 @@
-"""``motionrt convert``: one motion file into another format."""
+"""``motionrt convert``, ``trim`` and ``resample``: motion files into others, one or a folder of them."""
 
 from __future__ import annotations
 
 import argparse
+from collections import Counter
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from motionrt.cli.console import print_json
-from motionrt.cli.options import add_json, add_mapping, command, read_mapping
+from motionrt.cli.console import Progress, print_json, say
+from motionrt.cli.options import add_json, command
+from motionrt.cli.reading import INPUTS, add_reading, in_options, read_motion
 
-HELP = """convert a motion file (.bvh, .amc, .npz, .glb) to the canonical skeleton (.bvh, .glb, .npz)
-Whatever the rig, units and axes of the file, the result has 24 joints and Y up."""
+if TYPE_CHECKING:
+    from motionrt.motion import Motion
+
+SOME_SKIPPED = 3
+OUTPUTS = ".bvh, .glb, .gltf, .vrma, .npz"
+HELP = f"""convert motion files ({INPUTS})
+Whatever the rig, units and axes of the file, the result has the 24 joints of the canonical skeleton and Y up.
+A folder is converted whole, into a folder: files that cannot be read are listed with the reason, and the
+exit code is then 3."""
+TRIM = """cut a motion file: the frames between two times
+The result is on the canonical skeleton, as that of convert."""
+RESAMPLE = """change the frame rate of a motion file
+The result is on the canonical skeleton, as that of convert."""
 
 
 def add(commands: Any) -> None:
-    """Add the command."""
-    parser = command(commands, "convert", run, HELP)
-    parser.add_argument("input", type=Path, metavar="IN", help="a motion file (.bvh, .amc, .npz, .glb)")
-    parser.add_argument("output", type=Path, metavar="OUT", help="the file to write (.bvh, .glb, .npz)")
-    parser.add_argument("--fps", type=float, metavar="N", help="resample to this frame rate")
+    """Add the commands."""
+    convert = _writer(
+        commands, "convert", run, HELP, "a motion file, or a folder of them", "the file or folder to write"
+    )
+    convert.add_argument("--fps", type=float, metavar="N", help="resample to this frame rate")
+    convert.add_argument("--to", metavar="SUFFIX", default=".bvh", help=f"of a folder: {OUTPUTS} (default: .bvh)")
+    trim = _writer(commands, "trim", run_trim, TRIM, "a motion file", "the file to write")
+    trim.add_argument("--start", type=float, default=0.0, metavar="S", help="seconds (default: 0)")
+    trim.add_argument("--end", type=float, metavar="S", help="seconds (default: the end)")
+    resample = _writer(commands, "resample", run_resample, RESAMPLE, "a motion file", "the file to write")
+    resample.add_argument("--fps", type=float, required=True, metavar="N", help="frames per second of the result")
+
+
+def _writer(commands: Any, name: str, run: Any, text: str, given: str, made: str) -> argparse.ArgumentParser:
+    parser = command(commands, name, run, text)
+    parser.add_argument("input", type=Path, metavar="IN", help=f"{given} ({INPUTS})")
+    parser.add_argument("output", type=Path, metavar="OUT", help=f"{made} ({OUTPUTS})")
     parser.add_argument("--units", choices=("cm", "m", "mm", "in"), help="of a .bvh (default: cm)")
     parser.add_argument("--t-pose", action="store_true", help="begin a .bvh with a frame of the T-pose")
-    parser.add_argument("--animation", metavar="NAME", help="of a .glb that holds several")
-    add_mapping(parser)
+    add_reading(parser)
     add_json(parser)
+    return parser
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Convert, and say what was written."""
-    from motionrt.formats import load_motion
+    """Convert a file or a folder, and say what was written."""
+    if arguments.input.is_dir():
+        return _run_folder(arguments)
+    motion = read_motion(arguments, arguments.input)
+    return _finish(arguments, motion if arguments.fps is None else motion.resample(arguments.fps))
 
-    motion = load_motion(arguments.input, mapping=read_mapping(arguments.mapping), animation=arguments.animation)
-    if arguments.fps is not None:
-        motion = motion.resample(arguments.fps)
-    path = motion.save(arguments.output, units=arguments.units, t_pose=arguments.t_pose)
+
+def run_trim(arguments: argparse.Namespace) -> int:
+    """Write a part of a motion."""
+    from motionrt.errors import InvalidInputError
+
+    motion = read_motion(arguments, arguments.input)
+    end = motion.duration if arguments.end is None else arguments.end
+    if not 0 <= arguments.start < end or arguments.start >= motion.duration:
+        raise InvalidInputError(
+            f"--start {arguments.start:g} and --end {end:g} leave nothing of a motion of {motion.duration:.2f} s"
+        )
+    return _finish(arguments, motion.between(arguments.start, end))
+
+
+def run_resample(arguments: argparse.Namespace) -> int:
+    """Write a motion at another frame rate."""
+    return _finish(arguments, read_motion(arguments, arguments.input).resample(arguments.fps))
+
+
+def _finish(arguments: argparse.Namespace, motion: Motion) -> int:
+    path = _save(arguments, motion, arguments.input, arguments.output)
     if arguments.json:
         print_json({"path": str(path), "frames": motion.frames, "fps": motion.fps, "seconds": motion.duration})
     else:
         print(f"{path}: {motion.frames} frames, {motion.duration:.2f} s at {motion.fps:g} fps")
     return 0
+
+
+def _save(arguments: argparse.Namespace, motion: Motion, source: Path, target: Path) -> Path:
+    from motionrt.errors import InvalidInputError
+
+    if target.exists() and source.exists() and target.samefile(source):
+        raise InvalidInputError(f"{target} is the file that was read; write to another one")
+    return motion.save(target, units=arguments.units, t_pose=arguments.t_pose)
+
+
+def _run_folder(arguments: argparse.Namespace) -> int:
+    """Convert all motion files below a folder; folders below it are made again below the output."""
+    from motionrt.errors import InvalidInputError, MotionRTError
+    from motionrt.formats import WRITABLE_SUFFIXES, find_motions
+
+    suffix = arguments.to if arguments.to.startswith(".") else f".{arguments.to}"
+    if suffix not in WRITABLE_SUFFIXES:
+        raise InvalidInputError(f"--to {arguments.to}: can be {', '.join(WRITABLE_SUFFIXES)}")
+    if arguments.output.exists() and not arguments.output.is_dir():
+        raise InvalidInputError(f"{arguments.output} is a file; a folder is converted into a folder")
+    found, progress = find_motions(arguments.input), Progress()
+    written: list[Path] = []
+    skipped: list[tuple[str, str]] = []
+    taken: set[Path] = set()
+    for done, (name, animation) in enumerate(found):
+        progress(done, len(found), name)
+        try:
+            target = _target(arguments.output / name, animation, suffix, taken)
+            written.append(_convert_one(arguments, name, animation, target))
+        except MotionRTError as error:
+            skipped.append((name, in_options(" ".join(str(error).split()))))
+    progress(len(found), len(found), "")
+    return _report(arguments, written, skipped)
+
+
+def _convert_one(arguments: argparse.Namespace, name: str, animation: str | None, target: Path) -> Path:
+    source = arguments.input / name
+    chosen = argparse.Namespace(**{**vars(arguments), "animation": animation or arguments.animation})
+    motion = read_motion(chosen, source)
+    target.parent.mkdir(parents=True, exist_ok=True)
+    return _save(arguments, motion if arguments.fps is None else motion.resample(arguments.fps), source, target)
+
+
+def _target(path: Path, animation: str | None, suffix: str, taken: set[Path]) -> Path:
+    """Where a file goes: two sources of one stem do not write the same file."""
+    stem = path.stem if animation is None else f"{path.stem}__{animation.replace('/', '_')}"
+    target = path.with_name(stem + suffix)
+    if target in taken:
+        target = path.with_name(f"{stem}_{path.suffix[1:]}{suffix}")
+    taken.add(target)
+    return target
+
+
+def _report(arguments: argparse.Namespace, written: list[Path], skipped: list[tuple[str, str]]) -> int:
+    if arguments.json:
+        reasons = [{"path": name, "reason": reason} for name, reason in skipped]
+        print_json({"written": [str(path) for path in written], "skipped": reasons})
+    else:
+        print(f"{arguments.output}: {len(written)} files written")
+    for name, reason in skipped[:20]:
+        say(f"skipped {name}: {reason}")
+    if len(skipped) > 20:
+        say_reasons(skipped)
+    return SOME_SKIPPED if skipped else 0
+
+
+def say_reasons(skipped: list[tuple[str, str]]) -> None:
+    """Many skipped files by reason, most frequent first, names and numbers left out."""
+    counts = Counter(reason.split(": ")[-1][:90] for _, reason in skipped)
+    say(f"motionrt: {len(skipped)} files were skipped:")
+    for reason, count in counts.most_common(12):
+        say(f"  {count:5d}  {reason}")

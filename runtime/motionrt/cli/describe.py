@@ -7,7 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from motionrt.cli.console import print_json, print_table
-from motionrt.cli.options import add_json, add_mapping, add_models, add_text_tower, command, read_mapping, runtime
+from motionrt.cli.options import add_json, add_models, add_text_tower, command, runtime
+from motionrt.cli.reading import INPUTS, add_reading, read_motion
 
 HELP = """say what a motion shows: the nearest captions of a list"""
 
@@ -15,10 +16,10 @@ HELP = """say what a motion shows: the nearest captions of a list"""
 def add(commands: Any) -> None:
     """Add the command."""
     parser = command(commands, "describe", run, HELP)
-    parser.add_argument("clip", type=Path, help="a motion file (.bvh, .amc, .npz, .glb)")
+    parser.add_argument("clip", type=Path, help=f"a motion file ({INPUTS})")
     parser.add_argument("-k", type=int, default=5, metavar="N", help="how many captions (default: 5)")
     parser.add_argument("--captions", type=Path, metavar="FILE", help="captions to choose from, one a line")
-    add_mapping(parser)
+    add_reading(parser)
     add_json(parser)
     add_models(parser)
     add_text_tower(parser)
@@ -26,10 +27,9 @@ def add(commands: Any) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Print the captions."""
-    from motionrt.formats import load_motion
     from motionrt.retrieval import read_captions
 
-    motion = load_motion(arguments.clip, mapping=read_mapping(arguments.mapping))
+    motion = read_motion(arguments, arguments.clip)
     captions = None if arguments.captions is None else read_captions(arguments.captions)
     found = runtime(arguments).describe(motion, arguments.k, captions)
     if arguments.json:

@@ -8,8 +8,9 @@ from pathlib import Path
 from typing import Any
 
 from motionrt.cli.console import print_json, print_table
-from motionrt.cli.options import add_json, add_mapping, add_models, add_text_tower, command, read_mapping, runtime
+from motionrt.cli.options import add_json, add_models, add_text_tower, command, runtime
 from motionrt.cli.plot import curve_lines
+from motionrt.cli.reading import INPUTS, add_reading, read_motion
 
 HELP = """find the moments of a long motion that fit a text
 Windows of 0.5 to 3 s slide over the motion; spans that repeat a better one are left out.
@@ -20,7 +21,7 @@ def add(commands: Any) -> None:
     """Add the command."""
     parser = command(commands, "moments", run, HELP)
     parser.add_argument("text", help="a sentence, as in 'a person turns around'")
-    parser.add_argument("clip", type=Path, help="a motion file (.bvh, .amc, .npz, .glb)")
+    parser.add_argument("clip", type=Path, help=f"a motion file ({INPUTS})")
     parser.add_argument("-k", type=int, default=5, metavar="N", help="how many moments at most (default: 5)")
     parser.add_argument(
         "--windows",
@@ -29,7 +30,7 @@ def add(commands: Any) -> None:
         help="lengths of the windows at 20 fps (default: 10,20,30,40,50,60)",
     )
     parser.add_argument("--plot", action="store_true", help="draw the similarity over time")
-    add_mapping(parser)
+    add_reading(parser)
     add_json(parser)
     add_models(parser)
     add_text_tower(parser)
@@ -37,9 +38,7 @@ def add(commands: Any) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Print the moments, and the curve when asked for."""
-    from motionrt.formats import load_motion
-
-    motion = load_motion(arguments.clip, mapping=read_mapping(arguments.mapping))
+    motion = read_motion(arguments, arguments.clip)
     lengths = {"lengths": arguments.windows} if arguments.windows else {}
     found = runtime(arguments).moments(arguments.text, motion, arguments.k, **lengths)
     if arguments.json:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import json
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -46,13 +45,13 @@ def add_text_tower(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def add_mapping(parser: argparse.ArgumentParser) -> None:
+def add_mapping(parser: argparse._ActionsContainer) -> None:
     """``--mapping``."""
     parser.add_argument(
         "--mapping",
         type=Path,
         metavar="FILE",
-        help="JSON object for a rig that is not recognised: smpl24 joint name to joint name in the file",
+        help="YAML or JSON, smpl24 joint name to joint name in the file; 'motionrt rig map' drafts it",
     )
 
 
@@ -64,15 +63,7 @@ def runtime(arguments: argparse.Namespace) -> Runtime:
 
 
 def read_mapping(path: Path | None) -> dict[str, str] | None:
-    """The joint mapping in a JSON file; InvalidInputError when it is not an object of strings."""
-    from motionrt.errors import InvalidInputError
+    """The joint mapping in a YAML or JSON file; InvalidInputError when it does not map names to names."""
+    from motionrt.rigs.mapping import load_mapping
 
-    if path is None:
-        return None
-    try:
-        mapping = json.loads(path.read_text(encoding="utf-8-sig"))
-    except (OSError, ValueError) as error:
-        raise InvalidInputError(f"cannot read the mapping {path}: {error}") from error
-    if not isinstance(mapping, dict) or not all(isinstance(name, str) for name in mapping.values()):
-        raise InvalidInputError(f'{path} must hold a JSON object such as {{"left_hip": "L_Thigh"}}')
-    return mapping
+    return None if path is None else load_mapping(path)

@@ -8,7 +8,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from motionrt.cli.console import Progress, print_json
-from motionrt.cli.options import add_json, add_mapping, add_models, command, read_mapping, runtime
+from motionrt.cli.options import add_json, add_models, command, runtime
+from motionrt.cli.reading import add_reading, read_motion
 
 if TYPE_CHECKING:
     from motionrt.rendering import Look, TakeLike
@@ -34,7 +35,7 @@ def add(commands: Any) -> None:
     _add_camera(parser)
     _add_sheet(parser)
     _add_colours(parser)
-    add_mapping(parser)
+    add_reading(parser)
     add_json(parser)
     add_models(parser)
 
@@ -112,11 +113,9 @@ def _colours(given: list[str]) -> dict[str, str]:
 
 def _given(arguments: argparse.Namespace, name: str) -> TakeLike:
     """The motion of a file; a script is performed."""
-    from motionrt.formats import load_motion
-
     if Path(name).suffix.lower() in {".yaml", ".yml"}:
         return runtime(arguments).play(name, progress=Progress())
-    return load_motion(name, mapping=read_mapping(arguments.mapping))
+    return read_motion(arguments, name)
 
 
 def _size(text: str) -> tuple[int, int]:

@@ -7,7 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from motionrt.cli.console import print_json
-from motionrt.cli.options import add_json, add_mapping, command, read_mapping
+from motionrt.cli.options import add_json, command, read_mapping
+from motionrt.cli.reading import INPUTS, add_reading, read_motion
 
 HELP = """put a motion on your own character (.glb, .bvh)
 The result keeps the character's file as it is, hierarchy, names, units, rest pose and (.glb) mesh, skin
@@ -18,7 +19,7 @@ are known; strides are scaled to the legs, and standing feet stand."""
 def add(commands: Any) -> None:
     """Add the command."""
     parser = command(commands, "retarget", run, HELP)
-    parser.add_argument("clip", type=Path, metavar="CLIP", help="the motion (.bvh, .amc, .npz, .glb)")
+    parser.add_argument("clip", type=Path, metavar="CLIP", help=f"the motion ({INPUTS})")
     parser.add_argument("--to", type=Path, required=True, metavar="RIG", help="the character (.glb, .bvh)")
     parser.add_argument("-o", "--output", type=Path, required=True, metavar="OUT", help="file to write (.glb, .bvh)")
     parser.add_argument(
@@ -32,9 +33,8 @@ def add(commands: Any) -> None:
     parser.add_argument("--fps", type=float, metavar="N", help="resample to this frame rate")
     parser.add_argument("--units", choices=("cm", "m", "mm", "in"), help="of a .bvh made from a .glb (default: cm)")
     parser.add_argument("--t-pose", action="store_true", help="begin a .bvh with a frame of the rest pose")
-    parser.add_argument("--animation", metavar="NAME", help="of a CLIP .glb that holds several")
     parser.add_argument("--skin", metavar="NAME", help="of a RIG .glb that holds several figures")
-    add_mapping(parser)
+    add_reading(parser)
     parser.add_argument(
         "--rig-mapping", type=Path, metavar="FILE", help="the same for RIG, smpl24 joint name to joint name in it"
     )
@@ -43,14 +43,18 @@ def add(commands: Any) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Retarget, and say what was written."""
-    from motionrt.formats import load_motion, load_target
+    from motionrt.errors import RigError
+    from motionrt.formats import load_target
 
-    mapping, rig_mapping = read_mapping(arguments.mapping), read_mapping(arguments.rig_mapping)
+    rig_mapping = read_mapping(arguments.rig_mapping)
     rig = load_target(arguments.to, skin=arguments.skin)
-    motion = load_motion(arguments.clip, mapping=mapping, animation=arguments.animation)
+    motion = read_motion(arguments, arguments.clip)
     if arguments.fps is not None:
         motion = motion.resample(arguments.fps)
-    moved = motion.retarget_to(rig, mapping=rig_mapping, root_motion=arguments.root_motion)
+    try:
+        moved = motion.retarget_to(rig, mapping=rig_mapping, root_motion=arguments.root_motion)
+    except RigError as error:
+        raise RigError(str(error).replace("mapping=", "rig_mapping=")) from error
     path = moved.save(arguments.output, units=arguments.units, t_pose=arguments.t_pose)
     joints = sum(not name.endswith("_end") for name in moved.names)  # end sites of a BVH are none
     if arguments.json:

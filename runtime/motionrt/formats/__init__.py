@@ -1,4 +1,4 @@
-"""Motion files in and out: BVH, GLB, ASF/AMC and AMASS npz."""
+"""Motion files in and out: BVH, glTF, VRM, FBX, ASF/AMC, SMPL and HumanML3D arrays."""
 
 from __future__ import annotations
 
@@ -9,9 +9,13 @@ from motionrt._lazy import lazily
 if TYPE_CHECKING:
     from motionrt.formats.acclaim import read_amc, read_asf
     from motionrt.formats.bvh import read_bvh, write_bvh
+    from motionrt.formats.fbx import read_fbx
+    from motionrt.formats.folder import animations_of, find_motions
     from motionrt.formats.gltf import read_glb, write_glb
+    from motionrt.formats.info import MotionFileInfo, motion_file_info
     from motionrt.formats.leading_pose import drop_leading_tpose
     from motionrt.formats.load import MOTION_SUFFIXES, WRITABLE_SUFFIXES, load_motion, load_rig, save_motion
+    from motionrt.formats.numbers import read_npy
     from motionrt.formats.rig_files import RIG_SUFFIXES
     from motionrt.formats.smpl import read_npz, write_npz
     from motionrt.formats.target import load_target, retarget_to
@@ -20,7 +24,11 @@ if TYPE_CHECKING:
 _HOMES = {
     "acclaim": ("read_amc", "read_asf"),
     "bvh": ("read_bvh", "write_bvh"),
+    "fbx": ("read_fbx",),
+    "folder": ("animations_of", "find_motions"),
     "gltf": ("read_glb", "write_glb"),
+    "info": ("MotionFileInfo", "motion_file_info"),
+    "numbers": ("read_npy",),
     "leading_pose": ("drop_leading_tpose",),
     "load": ("MOTION_SUFFIXES", "WRITABLE_SUFFIXES", "load_motion", "load_rig", "save_motion"),
     "smpl": ("read_npz", "write_npz"),
@@ -32,16 +40,22 @@ __all__ = [
     "MOTION_SUFFIXES",
     "RIG_SUFFIXES",
     "WRITABLE_SUFFIXES",
+    "MotionFileInfo",
     "Rig",
     "RigMotion",
+    "animations_of",
     "drop_leading_tpose",
+    "find_motions",
     "load_motion",
     "load_rig",
     "load_target",
+    "motion_file_info",
     "read_amc",
     "read_asf",
     "read_bvh",
+    "read_fbx",
     "read_glb",
+    "read_npy",
     "read_npz",
     "retarget_to",
     "save_motion",

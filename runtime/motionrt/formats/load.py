@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import warnings
+from collections.abc import Callable, Mapping
+from dataclasses import replace
 from pathlib import Path
 
-from motionrt.errors import FormatError, InvalidInputError, MotionRTError
+from motionrt.errors import FormatError, InvalidInputError, MotionFileWarning, MotionRTError
 from motionrt.formats.acclaim import read_amc
 from motionrt.formats.bvh import read_bvh, write_bvh
+from motionrt.formats.fbx import read_fbx
 from motionrt.formats.gltf import read_glb, write_glb
+from motionrt.formats.gltf.container import GLTF_SUFFIXES
 from motionrt.formats.leading_pose import drop_leading_tpose
+from motionrt.formats.numbers import read_npy
 from motionrt.formats.smpl import read_npz, write_npz
 from motionrt.formats.text import require_file
 from motionrt.formats.units import units_per_metre
@@ -19,10 +24,10 @@ from motionrt.rigs.clip import RigClip
 from motionrt.rigs.retarget_in import to_smpl24
 from motionrt.untrusted.files import as_path
 
-MOTION_SUFFIXES = (".bvh", ".amc", ".npz", ".glb")
+MOTION_SUFFIXES = (".bvh", ".amc", ".npz", ".npy", ".fbx", *GLTF_SUFFIXES)
 """What :func:`load_motion` reads, in any mixture of upper and lower case."""
 
-WRITABLE_SUFFIXES = (".bvh", ".glb", ".npz")
+WRITABLE_SUFFIXES = (".bvh", ".glb", ".gltf", ".vrma", ".npz")
 """What :func:`save_motion` writes."""
 
 
@@ -33,16 +38,22 @@ def load_rig(
     fps: float | None = None,
     animation: int | str | None = None,
     skin: int | str | None = None,
+    up: str | None = None,
 ) -> RigClip:
     """Read a motion file as it is: its own joints, units and axes, every frame.
 
     Args:
-        path: a ``.bvh``, ``.amc``, ``.npz`` (AMASS) or ``.glb`` file.
+        path: a ``.bvh``, ``.amc``, ``.fbx``, ``.glb``, ``.gltf``, ``.vrm``, ``.vrma``, ``.npz`` (SMPL) or ``.npy``
+            (HumanML3D) file.
         asf: the skeleton of an ``.amc``; looked for beside it if ``None``.
-        fps: frames per second to use instead of what the file says; of a ``.glb``, whose keys have times, the rate at
+        fps: frames per second to use instead of what the file says; of glTF and FBX, whose keys have times, the rate at
             which they are sampled.
-        animation: name or index of the animation in a ``.glb`` that holds several.
+        animation: name or index of the animation in a file that holds several.
         skin: name or index of the figure in a ``.glb`` that holds several.
+        up: ``"y"`` or ``"z"``, the vertical axis of the file, where the file and the body do not tell it rightly.
+
+    Warns:
+        MotionFileWarning: the file was read, but not all of it could be taken at its word.
 
     Raises:
         MotionFileNotFoundError: the file, or the skeleton that it needs, does not exist.
@@ -53,17 +64,25 @@ def load_rig(
     require_file(path)
     if fps is not None:
         fps = checked_fps(fps)
+    if up not in {None, "y", "z"}:
+        raise InvalidInputError(f"up must be 'y' or 'z', not '{up}'")
     suffix = _suffix(path, MOTION_SUFFIXES, "read")
+    readers: dict[str, Callable[[], RigClip]] = {
+        ".bvh": lambda: read_bvh(path, fps=fps),
+        ".amc": lambda: read_amc(path, asf, fps=fps),
+        ".npz": lambda: read_npz(path, fps=fps, up=up),
+        ".npy": lambda: read_npy(path, fps=fps),
+        ".fbx": lambda: read_fbx(path, fps=fps, animation=animation),
+    }
     try:
-        if suffix == ".bvh":
-            return read_bvh(path, fps=fps)
-        if suffix == ".glb":
-            return read_glb(path, fps=fps, animation=animation, skin=skin)
-        return read_amc(path, asf, fps=fps) if suffix == ".amc" else read_npz(path, fps=fps)
+        clip = readers.get(suffix, lambda: read_glb(path, fps=fps, animation=animation, skin=skin))()
     except MotionRTError:
         raise
     except Exception as error:  # whatever the bytes are, nothing else may come out of a reader
         raise FormatError(path, f"cannot be read ({type(error).__name__}: {error})") from error
+    for note in clip.notes:
+        warnings.warn(f"{path}: {note}", MotionFileWarning, stacklevel=3)
+    return clip if up is None or suffix in {".npz", ".npy"} else replace(clip, up=up)
 
 
 def load_motion(
@@ -75,29 +94,31 @@ def load_motion(
     fps: float | None = None,
     animation: int | str | None = None,
     skin: int | str | None = None,
+    up: str | None = None,
 ) -> Motion:
     """Read a motion file onto the ``smpl24`` skeleton: metres, Y up, the file's frame rate.
 
     Args:
-        path: a ``.bvh``, ``.amc``, ``.npz`` (AMASS) or ``.glb`` file.
+        path: as for :func:`load_rig`.
         mapping: ``smpl24`` joint name -> joint name in the file, for rigs that are not recognised.
         asf: the skeleton of an ``.amc``; looked for beside it if ``None``.
         keep_first_frame: keep a leading calibration pose; otherwise it is dropped. It orients the rig anyway.
         fps: as for :func:`load_rig`.
         animation: as for :func:`load_rig`.
         skin: as for :func:`load_rig`.
+        up: as for :func:`load_rig`.
 
     Raises:
         MotionFileNotFoundError, FormatError, InvalidInputError: as :func:`load_rig`.
         RigError: the rig cannot be mapped to ``smpl24``; the message names what is missing.
     """
-    clip = load_rig(path, asf=asf, fps=fps, animation=animation, skin=skin)
+    clip = load_rig(path, asf=asf, fps=fps, animation=animation, skin=skin, up=up)
     motion_part, reference = drop_leading_tpose(clip)
     return to_smpl24(clip if keep_first_frame else motion_part, mapping=mapping, reference=reference)
 
 
 def save_motion(motion: Motion, path: str | Path, *, units: str | None = None, t_pose: bool = False) -> Path:
-    """Write a motion as ``.bvh``, ``.glb`` or ``.npz`` (AMASS), whole or not at all; returns the path.
+    """Write a motion whole or not at all, as ``.bvh``, ``.glb``, ``.gltf``, ``.vrma`` or ``.npz``; returns the path.
 
     Args:
         motion: what to write.
@@ -114,7 +135,7 @@ def save_motion(motion: Motion, path: str | Path, *, units: str | None = None, t
         return write_bvh(motion, path, scale=units_per_metre(units or "cm"), t_pose=t_pose)
     if t_pose or units not in {None, "m"}:
         raise InvalidInputError(f"units and t_pose are for .bvh; a '{suffix}' is in metres and knows its rest pose")
-    return write_glb(motion, path) if suffix == ".glb" else write_npz(motion, path)
+    return write_npz(motion, path) if suffix == ".npz" else write_glb(motion, path)
 
 
 def _suffix(path: Path, known: tuple[str, ...], verb: str) -> str:

@@ -11,14 +11,18 @@ from motionrt.errors import InvalidInputError
 from motionrt.formats.atomic import write_bytes
 from motionrt.formats.bvh.target import BvhTarget
 from motionrt.formats.bvh.write import write_rig_bvh
+from motionrt.formats.gltf.container import GLTF_SUFFIXES
 from motionrt.formats.gltf.target import GlbTarget
 from motionrt.formats.gltf.write import write_rig_glb
 from motionrt.formats.units import to_metres, units_per_metre
 from motionrt.rigs.clip import RigClip
 from motionrt.rigs.target import RigMotion
 
-RIG_SUFFIXES = (".bvh", ".glb")
-"""Files that can be targets of retargeting, and what motions of them are written as."""
+RIG_SUFFIXES = (".bvh", ".fbx", *GLTF_SUFFIXES)
+"""Files that can be targets of retargeting."""
+
+_WRITTEN = (".bvh", ".glb")
+"""What motions of them are written as."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,9 +59,26 @@ class GlbRigFile:
         return write_bytes(path, self.target.with_animation(motion.clip, path.stem))
 
 
+@dataclass(frozen=True, eq=False)
+class FbxRigFile:
+    """Writes motions of a rig that came from an FBX: skeleton and animation, anew."""
+
+    path: Path
+
+    def save(self, motion: RigMotion, path: Path, *, units: str | None, t_pose: bool) -> Path:
+        """See :meth:`motionrt.rigs.target.RigMotion.save`."""
+        suffix, clip = _rig_suffix(path), to_metres(motion)
+        if suffix == ".bvh":
+            written = with_rest_frame(clip) if t_pose else clip
+            return write_rig_bvh(written, path, scale=units_per_metre(units or "cm"))
+        if units not in {None, "m"} or t_pose:
+            raise InvalidInputError("units and t_pose are for .bvh; a .glb is in metres and knows its rest pose")
+        return write_rig_glb(clip, path)
+
+
 def _rig_suffix(path: Path) -> str:
     suffix = path.suffix.lower()
-    if suffix not in RIG_SUFFIXES:
+    if suffix not in _WRITTEN:
         raise InvalidInputError(f"{path}: a motion of a rig is written as .bvh or .glb")
     return suffix
 

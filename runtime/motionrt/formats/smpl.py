@@ -1,4 +1,4 @@
-"""AMASS ``.npz`` (SMPL, SMPL-H or SMPL-X poses) in and out, without any file of those body models."""
+"""``.npz`` of SMPL, SMPL-H or SMPL-X poses in (AMASS, video capture) and out, without any file of those body models."""
 
 from __future__ import annotations
 
@@ -10,9 +10,11 @@ import numpy.typing as npt
 
 from motionrt.errors import FormatError, InvalidInputError
 from motionrt.formats.atomic import write_atomically
+from motionrt.formats.numbers import as_clip, joints_as_motion
 from motionrt.formats.text import LARGEST_VALUE, require_file
+from motionrt.motion.kinematics import fk
 from motionrt.motion.motion import Motion
-from motionrt.motion.rotations import axis_angle_to_matrix, matrix_to_axis_angle
+from motionrt.motion.rotations import axis_angle_to_matrix, matrix_to_axis_angle, normalise
 from motionrt.motion.skeleton import SMPL24
 from motionrt.rigs.clip import RigClip
 from motionrt.untrusted.npz import read_arrays
@@ -24,24 +26,42 @@ BODY_JOINTS = 22
 
 # Width of `poses` -> the joints (of three numbers each) that stand for left_hand and right_hand. SMPL has one
 # joint per hand; of the fifteen per hand that SMPL-H and SMPL-X have, the base of the middle finger.
-_HANDS: dict[int, tuple[int, int] | None] = {66: None, 72: (22, 23), 156: (25, 40), 165: (28, 43)}
+_HANDS: dict[int, tuple[int, int] | None] = {66: None, 72: (22, 23), 156: (25, 40), 159: (26, 41), 165: (28, 43)}
 _SMPLH_WIDTH = 156
 _FINGER_BASES = (0, 3, 6, 9)  # index, middle, little, ring finger among the fifteen joints of a SMPL-H hand
+_GENERATED_FPS = 30.0
+_UPRIGHT = 0.75
+"""Cosine between feet-to-head and an axis from which on a body stands along it."""
+
+_FLOOR = 0.5
+"""Metres from zero within which the lowest joint of a standing body is on the floor."""
+
 _ZIP_MARK, _NPY_MARK = b"PK", b"\x93NUMPY"
+_LAYOUTS = (
+    (("poses",), "trans"),
+    (("root_orient", "pose_body"), "trans"),
+    (("global_orient", "body_pose"), "transl"),
+    (("pose_world",), "trans_world"),
+)
+"""Names of the poses, and of where the pelvis is: AMASS, its second stage, SMPL-X results, video capture."""
+
 _RATE_KEYS = ("mocap_framerate", "mocap_frame_rate", "fps")
 _Z_UP_TO_Y_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
 
 
-def read_npz(path: str | Path, *, fps: float | None = None) -> RigClip:
-    """Read an AMASS file: ``poses (F, 66 | 72 | 156 | 165)`` axis-angle, ``trans (F, 3)`` metres, Z up.
+def read_npz(path: str | Path, *, fps: float | None = None, up: str | None = None) -> RigClip:
+    """Read poses of a body model: ``(F, 66 | 72 | 156 | 159 | 165)`` or ``(F, J, 3)`` axis-angle, ``(F, 3)`` metres.
 
-    The clip comes Y up, on the joints and proportions of ``smpl24``: body shape (``betas``) is not applied,
-    and ``trans`` is taken for the position of the pelvis, from which it differs by a small constant that only
-    the body model knows.
+    The names are those of AMASS (``poses``, or ``root_orient`` and ``pose_body``, with ``trans``) or of SMPL-X results
+    (``global_orient``, ``body_pose``, ``transl``; ``pose_world``, ``trans_world``). The clip comes Y up, on the joints
+    and proportions of ``smpl24``: body shape (``betas``) is not applied, and the place is taken for that of the pelvis,
+    from which it differs by a small constant that only the body model knows. ``posed_joints`` of motion generators are
+    read as positions.
 
     Args:
-        path: the file. Files with ``root_orient`` and ``pose_body`` in place of ``poses`` are read too.
+        path: the file. Without a place the figure stays on the spot.
         fps: frames per second to use instead of the file's ``mocap_framerate``.
+        up: ``"y"`` or ``"z"``, the vertical of the file; by default Z as in AMASS, or Y if the body stands along it.
 
     Raises:
         MotionFileNotFoundError: there is no such file.
@@ -49,15 +69,17 @@ def read_npz(path: str | Path, *, fps: float | None = None) -> RigClip:
     """
     path = Path(path)
     arrays = _read_arrays(path)
-    poses, trans = _poses(arrays, path), _numbers(arrays, "trans", path)
-    if trans.shape != (len(poses), 3):
-        expected = f"expected ({len(poses)}, 3), one row for each of 'poses'"
-        raise FormatError(path, f"'trans' has the shape {trans.shape}, {expected}")
+    if "posed_joints" in arrays:
+        return _from_joints(arrays, path, fps)
+    layout = next((layout for layout in _LAYOUTS if set(layout[0]) <= arrays.keys()), _LAYOUTS[0])
+    poses = _poses(arrays, layout[0], path)
+    trans, notes = _places(arrays, layout[1], len(poses), path)
     rate = _frame_rate(arrays, path) if fps is None else float(fps)
     rotations = axis_angle_to_matrix(_select_joints(poses))
-    rotations[:, 0] = _Z_UP_TO_Y_UP @ rotations[:, 0]
+    turn = np.eye(3) if (up or _vertical(rotations, trans)) == "y" else _Z_UP_TO_Y_UP
+    rotations[:, 0] = turn @ rotations[:, 0]
     translations = np.tile(SMPL24.offsets, (len(poses), 1, 1))
-    translations[:, 0] = trans @ _Z_UP_TO_Y_UP.T
+    translations[:, 0] = trans @ turn.T
     return RigClip(
         names=SMPL24.names,
         parents=SMPL24.parents,
@@ -67,7 +89,40 @@ def read_npz(path: str | Path, *, fps: float | None = None) -> RigClip:
         fps=rate,
         up="y",
         metres_per_unit=1.0,
+        notes=notes,
     )
+
+
+def _from_joints(arrays: dict[str, npt.NDArray[np.generic]], path: Path, fps: float | None) -> RigClip:
+    joints = _numbers(arrays, "posed_joints", path)
+    if joints.ndim != 3 or joints.shape[1:] not in ((22, 3), (24, 3)):
+        hint = "only those of the 22 joints of SMPL are known; export BVH instead"
+        raise FormatError(path, f"'posed_joints' has the shape {joints.shape}; {hint}")
+    known = any(key in arrays for key in _RATE_KEYS)
+    rate = fps or (_frame_rate(arrays, path) if known else _GENERATED_FPS)
+    return as_clip(joints_as_motion(joints, rate, path))
+
+
+def _places(
+    arrays: dict[str, npt.NDArray[np.generic]], key: str, frames: int, path: Path
+) -> tuple[Array, tuple[str, ...]]:
+    """Where the pelvis is ``(F, 3)``, and a note where the file does not say."""
+    if key not in arrays:
+        return np.zeros((frames, 3)), (f"has no '{key}': the figure stays on the spot",)
+    trans = _numbers(arrays, key, path)
+    if trans.shape != (frames, 3):
+        raise FormatError(path, f"'{key}' has the shape {trans.shape}, expected ({frames}, 3), one row for each pose")
+    return trans, ()
+
+
+def _vertical(rotations: npt.NDArray[np.floating], trans: Array) -> str:
+    """``"y"`` where the body stands along Y over a floor at 0, and never along Z; else ``"z"``."""
+    places, _ = fk(rotations, trans, SMPL24.offsets, SMPL24.parents)
+    feet = 0.5 * (places[:, SMPL24.index("left_ankle")] + places[:, SMPL24.index("right_ankle")])
+    body = normalise(places[:, SMPL24.index("head")] - feet)
+    shares = (body > _UPRIGHT).mean(axis=0)
+    on_floor = abs(float(np.percentile(places[..., 1].min(axis=1), 5))) < _FLOOR or not trans.any()
+    return "y" if shares[1] > 0.5 and shares[2] < 0.02 and on_floor else "z"
 
 
 def write_npz(motion: Motion, path: str | Path) -> Path:
@@ -106,12 +161,12 @@ def _save(file: BinaryIO, arrays: dict[str, npt.NDArray[np.generic]]) -> None:
 def _read_arrays(path: Path) -> dict[str, npt.NDArray[np.generic]]:
     """The arrays that matter."""
     _require_archive(path)
-    wanted = ("poses", "trans", "root_orient", "pose_body", *_RATE_KEYS)
+    wanted = (*(key for keys, place in _LAYOUTS for key in (*keys, place)), "posed_joints", *_RATE_KEYS)
     found, names = read_arrays(path, lambda reason, line: FormatError(path, reason, line), wanted)
-    if "poses" not in found and not {"root_orient", "pose_body"} <= found.keys():
-        raise FormatError(
-            path, f"not an AMASS motion: it has no 'poses' (it holds {', '.join(sorted(names)[:12]) or 'nothing'})"
-        )
+    if "posed_joints" not in found and not any(set(keys) <= found.keys() for keys, _ in _LAYOUTS):
+        layouts = ", or ".join(" and ".join(map(repr, keys)) for keys, _ in _LAYOUTS)
+        held = ", ".join(sorted(names)[:12]) or "nothing"
+        raise FormatError(path, f"not poses of SMPL: it has no {layouts} (it holds {held})")
     return found
 
 
@@ -124,17 +179,24 @@ def _require_archive(path: Path) -> None:
         raise FormatError(path, f"{reason}, not an npz archive")
 
 
-def _poses(arrays: dict[str, npt.NDArray[np.generic]], path: Path) -> Array:
-    if "poses" in arrays:
-        poses = _numbers(arrays, "poses", path)
-    else:
-        parts = [_numbers(arrays, key, path) for key in ("root_orient", "pose_body")]
-        if any(part.ndim != 2 for part in parts) or len(parts[0]) != len(parts[1]):
-            raise FormatError(path, "'root_orient' and 'pose_body' do not fit together")
-        poses = np.concatenate(parts, axis=1)
-    if poses.ndim != 2 or poses.shape[1] not in _HANDS:
+def _poses(arrays: dict[str, npt.NDArray[np.generic]], keys: tuple[str, ...], path: Path) -> Array:
+    """``(F, W)`` rotation vectors of all joints, root first."""
+    parts = [_numbers(arrays, key, path) for key in keys]
+    odd = next((key for key, part in zip(keys, parts, strict=True) if part.ndim not in {2, 3}), None)
+    if odd is not None:
+        raise FormatError(path, f"'{odd}' has the shape {arrays[odd].shape}, expected one row for each frame")
+    parts = [part.reshape(len(part), -1) if part.ndim == 3 and part.shape[2] == 3 else part for part in parts]
+    if any(part.ndim != 2 or len(part) != len(parts[0]) for part in parts):
+        raise FormatError(path, f"{' and '.join(map(repr, keys))} do not fit together")
+    poses = np.concatenate(parts, axis=1)
+    if poses.shape[1] == 69 and len(parts) > 1:
+        poses = np.concatenate([poses, np.zeros((len(poses), 3))], axis=1)
+    if poses.shape[1] == 63:
+        hint = "63 numbers a frame are a body without its root; add the root's rotation as 'root_orient'"
+        raise FormatError(path, f"'{keys[0]}' has the shape {poses.shape}: {hint} and call these 'pose_body'")
+    if poses.shape[1] not in _HANDS:
         widths = " | ".join(map(str, _HANDS))
-        raise FormatError(path, f"'poses' has the shape {poses.shape}, expected (frames, {widths})")
+        raise FormatError(path, f"'{keys[0]}' has the shape {poses.shape}, expected (frames, {widths})")
     if not len(poses):
         raise FormatError(path, "the file has no frames")
     return poses
@@ -157,10 +219,13 @@ def _frame_rate(arrays: dict[str, npt.NDArray[np.generic]], path: Path) -> float
     key = next((key for key in _RATE_KEYS if key in arrays), None)
     if key is None:
         raise FormatError(path, f"it has no frame rate ({' or '.join(_RATE_KEYS[:2])}); give fps=")
-    values = _numbers(arrays, key, path)
-    if values.size != 1 or not 1 <= values.item() <= 1000:
+    try:
+        rate = float(arrays[key].item()) if arrays[key].dtype.kind in "fiuSU" else 0.0
+    except (ValueError, TypeError):
+        rate = 0.0
+    if not 1 <= rate <= 1000:
         raise FormatError(path, f"'{key}' is no frame rate between 1 and 1000; give fps= to replace it")
-    return float(values.item())
+    return rate
 
 
 def _select_joints(poses: Array) -> Array:

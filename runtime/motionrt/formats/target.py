@@ -11,10 +11,12 @@ from motionrt.errors import FormatError, InvalidInputError, MotionRTError
 from motionrt.formats.bvh.read import parse_bvh
 from motionrt.formats.bvh.rig import build_rig
 from motionrt.formats.bvh.target import BvhTarget
+from motionrt.formats.fbx import read_fbx
+from motionrt.formats.gltf.container import GLTF_SUFFIXES
 from motionrt.formats.gltf.document import open_glb
 from motionrt.formats.gltf.target import GlbTarget
 from motionrt.formats.leading_pose import drop_leading_tpose
-from motionrt.formats.rig_files import RIG_SUFFIXES, BvhRigFile, GlbRigFile
+from motionrt.formats.rig_files import RIG_SUFFIXES, BvhRigFile, FbxRigFile, GlbRigFile
 from motionrt.formats.text import require_file
 from motionrt.motion.motion import Motion
 from motionrt.motion.skeleton import FloatArray
@@ -27,7 +29,8 @@ def load_target(path: str | Path, *, animation: int | str | None = None, skin: i
     """Read a character to retarget to.
 
     Args:
-        path: a ``.bvh`` (its frames may be any; a leading T-pose is found) or a ``.glb`` (with or without animation).
+        path: a ``.bvh`` (its frames may be any; a leading T-pose is found), or a ``.glb``, ``.gltf``, ``.vrm`` or
+            ``.fbx`` (with or without animation).
         animation: of a GLB: the one that helps where no pose of the file is a T- or A-pose; name or index.
         skin: of a GLB with several figures: which of them; name or index.
 
@@ -40,7 +43,8 @@ def load_target(path: str | Path, *, animation: int | str | None = None, skin: i
     require_file(path)
     readers: dict[str, Callable[[], Rig]] = {
         ".bvh": lambda: _from_bvh(path),
-        ".glb": lambda: _from_glb(path, animation, skin),
+        ".fbx": lambda: _from_fbx(path, animation),
+        **dict.fromkeys(GLTF_SUFFIXES, lambda: _from_glb(path, animation, skin)),
     }
     suffix = path.suffix.lower()
     if suffix not in readers:
@@ -78,6 +82,11 @@ def _from_glb(path: Path, animation: int | str | None, skin: int | str | None) -
     clip = still if tracks is None else document.clip(tracks)
     poses = _poses(clip, None, still.rotations[0], clip.rotations[0])
     return Rig(clip, poses, [True] * len(clip.names), GlbRigFile(GlbTarget(document)))
+
+
+def _from_fbx(path: Path, animation: int | str | None) -> Rig:
+    clip = read_fbx(path, animation=animation, still=animation is None)
+    return Rig(clip, _poses(clip, None, clip.rotations[0]), [True] * len(clip.names), FbxRigFile(path))
 
 
 def _poses(clip: RigClip, *others: FloatArray | None) -> list[FloatArray]:

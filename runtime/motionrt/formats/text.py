@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import math
 from pathlib import Path
 
@@ -11,6 +12,8 @@ import numpy.typing as npt
 from motionrt.errors import FormatError, MotionFileNotFoundError
 from motionrt.untrusted import files
 from motionrt.untrusted.files import check_file
+
+_LFS_POINTER = b"version https://git-lfs"
 
 LARGEST_VALUE = 1e7
 """No coordinate (file units) and no angle (degrees) of a sane file is larger; float32 would be noise."""
@@ -33,17 +36,25 @@ def read_bytes(path: Path) -> bytes:
 
 
 def read_text(path: Path) -> str:
-    """The text of a file with Unix line ends: UTF-8 (with or without mark), else Latin-1; no binary files."""
+    """The text of a file with Unix line ends: UTF-8 or UTF-16 by their marks, UTF-8, else Latin-1; no binary files."""
     raw = read_bytes(path)
-    if not raw.strip():
+    if raw.startswith(_LFS_POINTER):
+        raise FormatError(path, "is a pointer of git LFS, not the file itself: fetch it with 'git lfs pull'")
+    if raw.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        return _unix_lines(raw.decode("utf-16", errors="replace"))
+    raw = raw.rstrip(b"\0 \t\r\n")
+    if not raw:
         raise FormatError(path, "the file is empty")
     if b"\0" in raw:
-        raise FormatError(path, "this is a binary file (or UTF-16), not UTF-8 text")
+        raise FormatError(path, "this is a binary file, not text")
     try:
-        text = raw.decode("utf-8-sig")
+        return _unix_lines(raw.decode("utf-8-sig"))
     except UnicodeDecodeError:
-        text = raw.decode("latin-1")
-    return text.replace("\r\n", "\n").replace("\r", "\n")
+        return _unix_lines(raw.decode("latin-1"))
+
+
+def _unix_lines(text: str) -> str:
+    return text.replace("\r\n", "\n").replace("\r", "\n") if "\r" in text else text
 
 
 def line_of(text: str, position: int) -> int:

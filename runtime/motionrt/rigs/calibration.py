@@ -47,16 +47,16 @@ def _leg(pose: RigPose) -> float:
     return float(np.median(np.linalg.norm(pose.legs(), axis=-1)))
 
 
-def _frame(primary: Array, secondary: Array) -> Array:
+def frame_of(primary: Array, secondary: Array) -> Array:
     """Orthonormal frames ``(..., 3, 3)``: first column along ``primary``, second towards ``secondary``."""
     x = normalise(primary)
     y = normalise(secondary - (secondary * x).sum(-1, keepdims=True) * x)
     return np.stack([x, y, np.cross(x, y)], axis=-1)
 
 
-def _matched(source: tuple[Array, Array], target: tuple[Array, Array]) -> Array:
+def matched(source: tuple[Array, Array], target: tuple[Array, Array]) -> Array:
     """Rotations ``(F, 3, 3)`` that take the target's two directions to the source's: the first exactly."""
-    return _frame(*source) @ np.swapaxes(_frame(*target), -1, -2)
+    return frame_of(*source) @ np.swapaxes(frame_of(*target), -1, -2)
 
 
 def _mean_alignment(pose: RigPose, joint: int, frames: Array, weights: Array | None = None) -> Array:
@@ -75,11 +75,11 @@ def _align_trunk(pose: RigPose, out: Alignments) -> None:
     hips, shoulders = normalise(pose.across()), normalise(pose.across("shoulder"))
     rise = 0.5 * (rest_direction("left_hip", "spine1") + rest_direction("right_hip", "spine1"))
     source = (hips, pose.positions[:, above] - pose.hip_centre())
-    out[joints["pelvis"]] = _mean_alignment(pose, joints["pelvis"], _matched(source, (_X, normalise(rise))))
+    out[joints["pelvis"]] = _mean_alignment(pose, joints["pelvis"], matched(source, (_X, normalise(rise))))
     for i, joint in enumerate(pose.roles.spine):
         share = (i + 1) / len(pose.roles.spine)
         bone = _next_bone(pose, (*pose.roles.spine[i:], *pose.roles.neck))
-        frames = _matched((bone, (1 - share) * hips + share * shoulders), (_spine_direction(share), _X))
+        frames = matched((bone, (1 - share) * hips + share * shoulders), (_spine_direction(share), _X))
         out[joint] = _mean_alignment(pose, joint, frames)
 
 
@@ -103,7 +103,7 @@ def _align_neck(pose: RigPose, out: Alignments) -> None:
     neck = pose.roles.neck
     shoulders = pose.across("shoulder")
     for i, joint in enumerate(neck[:-1]):
-        frames = _matched((_next_bone(pose, neck[i:]), shoulders), (rest_direction("neck", "head"), _X))
+        frames = matched((_next_bone(pose, neck[i:]), shoulders), (rest_direction("neck", "head"), _X))
         out[joint] = _mean_alignment(pose, joint, frames)
     below = neck[-2] if len(neck) > 1 else (pose.roles.spine or (pose.roles.joints["pelvis"],))[-1]
     out[neck[-1]] = _mean_alignment(pose, neck[-1], role_rotations(pose, out, below))
@@ -118,7 +118,7 @@ def _align_collar(pose: RigPose, side: str, out: Alignments) -> None:
     if collar not in pose.roles.joints:
         return
     source = (pose.bone(collar, shoulder), _chest(pose, out)[..., 1])
-    frames = _matched(source, (rest_direction(collar, shoulder), _Y))
+    frames = matched(source, (rest_direction(collar, shoulder), _Y))
     out[pose.roles.joints[collar]] = _mean_alignment(pose, pose.roles.joints[collar], frames)
 
 
@@ -131,7 +131,7 @@ def _align_limb(pose: RigPose, side: str, line: tuple[str, str, str], axis: Arra
     hinge = np.cross(upper, lower) + _STRAIGHT * (swung @ axis)
     weights = np.linalg.norm(hinge, axis=-1)
     for role, bone, below in ((top, upper, middle), (middle, lower, end)):
-        frames = _matched((bone, hinge), (rest_direction(role, below), axis))
+        frames = matched((bone, hinge), (rest_direction(role, below), axis))
         out[pose.roles.joints[role]] = _mean_alignment(pose, pose.roles.joints[role], frames, weights)
 
 
@@ -143,11 +143,11 @@ def _align_foot(pose: RigPose, side: str, up: Array, out: Alignments) -> None:
         out[pose.roles.joints[ankle]] = _mean_alignment(pose, pose.roles.joints[ankle], shank)
         return
     bone = pose.bone(ankle, toe)
-    frames = _matched((bone, shank[..., 0]), (rest_direction(ankle, toe), _X))
+    frames = matched((bone, shank[..., 0]), (rest_direction(ankle, toe), _X))
     still = _resting(pose, side, up)
     if still.sum() >= 3:
         level = np.broadcast_to(up, bone.shape)
-        frames = np.where(still[:, None, None], _matched((level, bone), (_Y, np.array([0.0, 0.0, 1.0]))), frames)
+        frames = np.where(still[:, None, None], matched((level, bone), (_Y, np.array([0.0, 0.0, 1.0]))), frames)
     weights = still.astype(np.float64) if still.sum() >= 3 else np.ones(len(bone))
     for role in (ankle, toe):
         out[pose.roles.joints[role]] = _mean_alignment(pose, pose.roles.joints[role], frames, weights)
@@ -173,7 +173,7 @@ def _align_hand(pose: RigPose, side: str, out: Alignments) -> None:
     if hand in pose.roles.joints:
         bone = pose.bone(wrist, hand)
         if np.median(np.linalg.norm(bone, axis=-1)) > 1e-6:
-            frames = _matched((bone, forearm[..., 1]), (rest_direction(wrist, hand), _Y))
+            frames = matched((bone, forearm[..., 1]), (rest_direction(wrist, hand), _Y))
     out[joint] = _mean_alignment(pose, joint, frames)
     if hand in pose.roles.joints:
         follows = role_rotations(pose, out, joint)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -27,6 +28,8 @@ class RigClip:
         metres_per_unit: where the format fixes the unit, else ``None``.
         rest: ``(J, 3, 3)`` local rotations of the rest pose where the format has one (the bind pose of glTF); ``None``
             where the rest pose is the one without rotations (BVH).
+        known: ``smpl24`` joint name -> joint name, where the file itself says so (the humanoid map of a VRM).
+        notes: what in the file was not taken at its word, in words.
 
     Raises:
         InvalidInputError: shapes that do not belong together, or a frame rate that is not positive.
@@ -41,6 +44,8 @@ class RigClip:
     up: str | None = None
     metres_per_unit: float | None = None
     rest: FloatArray | None = None
+    known: Mapping[str, str] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         joints = len(self.names)

@@ -79,7 +79,7 @@ def read_joint_name(name: str) -> NameReading | None:
     """The side and part that ``name`` states, or ``None`` where it states none (numbers, helpers, foreign
     words).
     """
-    words = _words(name)
+    words = words_of(name)
     if not words or _HELPERS & set(words):
         return None
     side, rest = _take_side(words)
@@ -95,12 +95,13 @@ def read_joint_name(name: str) -> NameReading | None:
 
 def side_of(name: str) -> str:
     """``"left"``, ``"right"`` or ``""``: the side that ``name`` states, whatever else it says."""
-    return _take_side(_words(name))[0] or next((side for sign, side in _SIDE_SIGNS.items() if sign in name), "")
+    return _take_side(words_of(name))[0] or next((side for sign, side in _SIDE_SIGNS.items() if sign in name), "")
 
 
-def _words(name: str) -> list[str]:
-    """``"mixamorig:LeftUpLeg"`` -> ``["left", "up", "leg"]``; glued sides are split: ``"lfemur"`` -> ``["l",
-    "femur"]``.
+def words_of(name: str) -> list[str]:
+    """The words of a joint's name: ``"mixamorig:LeftUpLeg"`` -> ``["left", "up", "leg"]``.
+
+    Glued sides are split: ``"lfemur"`` -> ``["l", "femur"]``.
     """
     bare = re.split(r"[:|]", name)[-1]
     return [part for word in _WORD.findall(bare) for part in _split_glued(word.lower())]

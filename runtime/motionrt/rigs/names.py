@@ -41,19 +41,30 @@ def roles_from_names(tree: RigTree, settled: Mapping[str, int]) -> dict[str, int
     return roles
 
 
-_INNER = frozenset({"pelvis", "hip", "hipjoint", "thigh", "leg", "shin", "clavicle", "shoulder", "upperarm", "forearm"})
-"""Parts that have others below them: a joint without any (a marker, a helper) is none of these."""
+_LEG, _ARM = ("thigh", "hip", "leg", "hipjoint"), ("upperarm", "shoulder", "clavicle")
+_ALIKE = {
+    **dict.fromkeys(_LEG, _LEG),
+    **dict.fromkeys(_ARM, _ARM),
+    "shin": ("shin", "leg"),
+    "forearm": ("forearm",),
+    "pelvis": ("pelvis", "hip"),
+}
+"""Parts that have others below them -> the parts that may stand for the same joint."""
 
 
 def _read_all(tree: RigTree) -> Readings:
+    """All readings, but not those of joints without any below (markers, helpers) where a joint with a limb says so."""
     readings: dict[tuple[str, str], list[tuple[int, int]]] = defaultdict(list)
     for joint, name in enumerate(tree.names):
         reading = read_joint_name(name)
-        if reading is not None and not (reading.part in _INNER and tree.is_last(joint)):
+        if reading is not None:
             readings[reading.side, reading.part].append((reading.doubt, joint))
-    for at, found in readings.items():
-        readings[at] = [one for one in found if not tree.is_last(one[1])] or found
-    return readings
+    limbs = {at: [one for one in found if not tree.is_last(one[1])] for at, found in readings.items()}
+    out = {}
+    for (side, part), found in readings.items():
+        alike = any(limbs.get((side, other)) for other in _ALIKE.get(part, (part,)))
+        out[side, part] = limbs[side, part] if alike else found
+    return {at: found for at, found in out.items() if found}
 
 
 def _first(readings: Readings, side: str, *parts: str) -> list[tuple[int, int]]:
@@ -86,6 +97,8 @@ def _settle(roles: dict[str, int], role: str, sources: list[tuple[int, int]], tr
     """Give ``role`` to the least doubtful source; among equals to the one above the others."""
     if role in roles or not sources:
         return
+    if role.endswith("foot") and len({tree.parents[joint] for _, joint in sources}) == 1 and len(sources) > 2:
+        sources = [min(sources, key=lambda one: tree.from_middle(one[1], [joint for _, joint in sources]))]
     least = min(doubt for doubt, _ in sources)
     best = [joint for doubt, joint in sources if doubt == least]
     top = [joint for joint in best if all(other == joint or tree.is_above(joint, other) for other in best)]

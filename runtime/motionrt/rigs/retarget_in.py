@@ -57,6 +57,7 @@ def to_smpl24(
             to do.
     """
     own = as_own_motion(clip) if mapping is None else None
+    mapping = {**clip.known, **(mapping or {})} or None
     if own is not None:
         return own
     poses = [clip.rest_rotations()] if reference is None else [reference, clip.rest_rotations()]

@@ -18,17 +18,25 @@ from motionrt.errors import InvalidInputError, RigError
 from motionrt.motion.motion import Motion
 from motionrt.motion.skeleton import SMPL24
 from motionrt.rigs.build import read_build
+from motionrt.rigs.clip import RigClip
 from motionrt.rigs.drive import drive
 from motionrt.rigs.legs import place_legs
 from motionrt.rigs.root_motion import carry
-from motionrt.rigs.stance import read_stance
+from motionrt.rigs.stance import Stance, read_stance
 from motionrt.rigs.target import Rig, RigMotion
+from motionrt.rigs.tree import RigTree
 
 VALUE_LIMIT = 20_000_000
 """Frames times joints at most: about 700 MB of rotations."""
 
 _ENOUGH = 30
 """Frames from which the animation of a rig may say how its joints are turned, if none of its poses does."""
+
+
+def _hangs(clip: RigClip, stance: Stance, ankle: str) -> bool:
+    """Whether a foot hangs on the shin, so that it can be driven by rotations alone."""
+    joints = stance.roles.joints
+    return RigTree(clip).is_above(joints[ankle.replace("ankle", "knee")], joints[ankle])
 
 
 def to_rig(
@@ -55,7 +63,11 @@ def to_rig(
         raise InvalidInputError("only motions of the smpl24 skeleton can be retargeted")
     if motion.frames * len(rig.clip.names) > VALUE_LIMIT:
         raise InvalidInputError(f"{motion.frames} frames of {len(rig.clip.names)} joints are too many; cut the motion")
+    mapping = {**rig.clip.known, **(mapping or {})} or None
     stance = read_stance(rig.clip, mapping, rig.poses)
+    off = [name for name in ("left_ankle", "right_ankle") if not _hangs(rig.clip, stance, name)]
+    if off:
+        raise RigError(f"{' and '.join(off)} of the rig hang on controls, not on the shins: bake it to plain bones")
     if stance.local is None and rig.clip.frames < _ENOUGH:
         raise RigError(
             "the rig has no known standing pose: neither its rest pose nor its first frame is a T- or A-pose;"

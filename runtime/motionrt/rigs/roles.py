@@ -108,7 +108,8 @@ def _misplaced(tree: RigTree, roles: Mapping[str, int]) -> list[str]:
     for side in ("left", "right"):
         for line in (LEGS, ARMS):
             for upper, lower in pairwise(line):
-                if not tree.is_above(roles[f"{side}_{upper}"], roles[f"{side}_{lower}"]):
+                above, below = roles[f"{side}_{upper}"], roles[f"{side}_{lower}"]
+                if not tree.is_above(above, below) and not (lower == "ankle" and tree.rides(above, below)):
                     bad.append(f"{side}_{lower}")
     return bad + [f"right_{part}" for part in LEGS + ARMS if roles[f"left_{part}"] == roles[f"right_{part}"]]
 

@@ -15,6 +15,7 @@ from motionrt.rigs.axes import sides_agree, to_y_up
 from motionrt.rigs.calibration import align_from_motion
 from motionrt.rigs.clip import RigClip
 from motionrt.rigs.elbows import align_elbows
+from motionrt.rigs.human import require_person
 from motionrt.rigs.pose import RigPose, animated_pose, standing_axes, still_pose
 from motionrt.rigs.roles import RigRoles, assign_roles
 from motionrt.rigs.tree import RigTree
@@ -65,6 +66,8 @@ def read_stance(
         roles = motion.roles = _one_sided(motion)
     local, still, axes = _standing(clip, roles, poses)
     to_world = to_y_up(clip.up, motion, axes)
+    if not mapping:
+        require_person(RigTree(clip), motion, to_world[1], stands=axes is not None)
     if still is not None and axes is not None:
         alignments = align_elbows(motion, align_standing(still, axes))
     else:

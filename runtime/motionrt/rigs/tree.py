@@ -16,6 +16,7 @@ _COINCIDENT = 0.08
 
 
 _SAMPLES = 24
+_RIDES = 0.1
 
 
 class RigTree:
@@ -70,6 +71,22 @@ class RigTree:
     def is_above(self, upper: int, lower: int) -> bool:
         """Whether ``upper`` is a proper ancestor of ``lower``."""
         return upper != lower and upper in self.ancestors(lower)
+
+    def from_middle(self, joint: int, siblings: Sequence[int]) -> float:
+        """Distance of ``joint`` from the middle of ``siblings``, which hang on the same joint; file units."""
+        places = np.median(np.asarray(self._clip.translations, dtype=np.float64), axis=0)
+        return float(np.linalg.norm(places[joint] - places[list(siblings)].mean(axis=0)))
+
+    def rides(self, upper: int, lower: int) -> bool:
+        """Whether ``lower``, on a branch of its own (a control), keeps its distance from ``upper`` as if it hung there.
+
+        Only joints that do not hang on each other ride, and only where the clip moves them.
+        """
+        if self.is_above(upper, lower) or self.is_above(lower, upper):
+            return False
+        bones = np.linalg.norm(self.places[:, lower] - self.places[:, upper], axis=-1)
+        reach = float(np.median(bones))
+        return reach > self.negligible and float(np.ptp(bones)) < _RIDES * reach
 
     def meeting(self, joints: Sequence[int]) -> int | None:
         """The lowest common ancestor of ``joints`` (each counts as its own ancestor); ``None`` in separate

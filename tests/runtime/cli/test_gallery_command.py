@@ -82,4 +82,4 @@ def test_a_mapping_file_is_used_and_checked(library: Path, tmp_path: Path, capsy
     assert "no such joint" in capsys.readouterr().err
     mapping.write_text("[1]", encoding="utf-8")
     assert main(command) == 1
-    assert "JSON object" in capsys.readouterr().err
+    assert "must map joint names" in capsys.readouterr().err

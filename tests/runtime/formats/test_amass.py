@@ -135,12 +135,11 @@ def test_another_skeleton_cannot_be_written(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("changes", "reason"),
     [
-        ({"poses": None}, r"no 'poses' \(it holds betas, gender, mocap_framerate, trans\)"),
-        ({"trans": None}, "it has no 'trans'"),
+        ({"poses": None}, r"no 'poses', .*\(it holds betas, gender, mocap_framerate, trans\)"),
         ({"mocap_framerate": None}, "no frame rate .*give fps="),
         ({"mocap_framerate": np.array(0.0)}, "no frame rate between 1 and 1000"),
         ({"mocap_framerate": np.array([30.0, 60.0])}, "no frame rate between"),
-        ({"mocap_framerate": np.array("fast")}, "does not hold numbers"),
+        ({"mocap_framerate": np.array("fast")}, "no frame rate between 1 and 1000"),
         ({"poses": np.zeros((3, 100))}, r"'poses' has the shape \(3, 100\), expected \(frames, 66 | 72"),
         ({"poses": np.zeros(156)}, r"'poses' has the shape \(156,\)"),
         ({"poses": np.zeros((0, 156)), "trans": np.zeros((0, 3))}, "no frames"),

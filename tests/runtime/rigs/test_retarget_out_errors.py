@@ -146,7 +146,7 @@ def test_mappings_are_checked(tmp_path: Path) -> None:
 
 
 def test_only_characters_are_targets_and_only_two_formats_are_written(tmp_path: Path) -> None:
-    with pytest.raises(InvalidInputError, match=r"a rig '\.npz' cannot be a target; can be: \.bvh, \.glb"):
+    with pytest.raises(InvalidInputError, match=r"a rig '\.npz' cannot be a target; can be: \.bvh, \.fbx, \.glb"):
         WALK.retarget_to(WALK.save(tmp_path / "clip.npz"))
     moved = WALK.retarget_to(glb(character("mixamo")).save(tmp_path / "rig.glb"))
     for name, options, message in (

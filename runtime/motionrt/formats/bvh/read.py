@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from motionrt.errors import FormatError
@@ -20,7 +20,8 @@ FPS_RANGE = (1.0, 1000.0)
 _STILL_FPS = 30.0
 _MOTION = re.compile(r"^[ \t]*MOTION\b", re.MULTILINE | re.IGNORECASE)
 _COUNT = re.compile(r"\s*Frames[ \t]*:[ \t]*(\S*)", re.IGNORECASE)
-_TIME = re.compile(r"\s*Frame[ \t]*Time[ \t]*:[ \t]*(\S*)", re.IGNORECASE)
+_TIME = re.compile(r"\s*Frames?[ \t]*Time[ \t]*:[ \t]*(\S*)", re.IGNORECASE)
+_COMMA = re.compile(r"(?<=\d),(?=\d)")
 
 
 def read_bvh(path: str | Path, *, fps: float | None = None) -> RigClip:
@@ -42,7 +43,7 @@ def read_bvh(path: str | Path, *, fps: float | None = None) -> RigClip:
         FormatError: the file is not a whole, finite BVH file; names the line.
     """
     bvh = parse_bvh(path, fps=fps)
-    return build_rig(bvh.joints, bvh.values, bvh.fps)
+    return replace(build_rig(bvh.joints, bvh.values, bvh.fps), notes=bvh.notes)
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,18 +55,20 @@ class BvhText:
         joints: what that declares.
         values: ``(F, C)`` channel values.
         fps: frames per second.
+        notes: what in the file was not taken at its word.
     """
 
     hierarchy: str
     joints: list[BvhJoint]
     values: Values
     fps: float
+    notes: tuple[str, ...] = ()
 
 
 def parse_bvh(path: str | Path, *, fps: float | None = None) -> BvhText:
     """Text, joints and numbers of a BVH file; arguments and errors as for :func:`read_bvh`."""
     path = Path(path)
-    text = read_text(path)
+    text = _with_points(read_text(path))
     start = _MOTION.search(text)
     joints = parse_hierarchy(text[: start.start()] if start else text, path)
     if start is None:
@@ -73,16 +76,26 @@ def parse_bvh(path: str | Path, *, fps: float | None = None) -> BvhText:
     return BvhText(text[: start.start()], joints, *_read_motion(text, start.end(), joints, path, fps))
 
 
-def _read_motion(text: str, at: int, joints: list[BvhJoint], path: Path, fps: float | None) -> tuple[Values, float]:
-    """Channel values ``(F, C)`` and the frame rate."""
+def _with_points(text: str) -> str:
+    """``text`` with decimal points where all its numbers have decimal commas."""
+    numbers = text[text.find("MOTION") :]
+    return _COMMA.sub(".", text) if "," in numbers and "." not in numbers else text
+
+
+def _read_motion(
+    text: str, at: int, joints: list[BvhJoint], path: Path, fps: float | None
+) -> tuple[Values, float, tuple[str, ...]]:
+    """Channel values ``(F, C)``, the frame rate, and notes on what the file says otherwise."""
     channels = sum(len(joint.channels) for joint in joints)
     if channels == 0:
         raise FormatError(path, "no joint has CHANNELS: there is no motion in this file", line_of(text, at))
     word, at = _header_field(_COUNT, "Frames:", text, at, path)
     frames = _frame_count(word, path, line_of(text, at))
-    word, at = _header_field(_TIME, "Frame Time:", text, at, path)
+    if fps is None or _TIME.match(text, at):
+        word, at = _header_field(_TIME, "Frame Time:", text, at, path)
     rate = float(fps) if fps is not None else _frame_rate(word, frames, path, line_of(text, at))
-    return read_values(text, at, (frames, channels), path), rate
+    values, notes = read_values(text, at, (frames, channels), path)
+    return values, rate, notes
 
 
 def _header_field(pattern: re.Pattern[str], name: str, text: str, at: int, path: Path) -> tuple[str, int]:
@@ -97,8 +110,6 @@ def _header_field(pattern: re.Pattern[str], name: str, text: str, at: int, path:
 def _frame_count(word: str, path: Path, line: int) -> int:
     if not (word.isascii() and word.isdecimal() and len(word) < 10):
         raise FormatError(path, f"the number of frames is '{shorten(word)}'", line)
-    if int(word) == 0:
-        raise FormatError(path, "the file has no frames", line)
     return int(word)
 
 

@@ -8,10 +8,11 @@ from pathlib import Path
 import numpy as np
 
 from motionrt.errors import FormatError
+from motionrt.formats.bvh.euler import euler_degrees
 from motionrt.formats.bvh.hierarchy import BvhJoint
 from motionrt.formats.bvh.read import BvhText
 from motionrt.formats.bvh.rig import joints_with_differences
-from motionrt.formats.bvh.write import euler_degrees, value_rows
+from motionrt.formats.bvh.write import value_rows
 from motionrt.motion.skeleton import FloatArray
 from motionrt.rigs.clip import RigClip
 

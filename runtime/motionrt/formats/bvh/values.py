@@ -13,12 +13,31 @@ from motionrt.formats.text import line_of, to_float, to_floats
 Values = npt.NDArray[np.float64]
 
 
-def read_values(text: str, at: int, shape: tuple[int, int], path: Path) -> Values:
-    """Channel values ``(F, C)`` of the given shape from position ``at`` of the text to its end."""
+def read_values(text: str, at: int, shape: tuple[int, int], path: Path) -> tuple[Values, tuple[str, ...]]:
+    """Channel values ``(F, C)`` from position ``at`` of the text to its end, and notes.
+
+    ``shape`` is what the file declares. Where it holds another number of whole lines of ``C`` values, those count: many
+    exporters are off by one, and an interrupted export ends within a line.
+    """
     values = to_floats(text[at:].split())
-    if values is None or values.size != shape[0] * shape[1]:
+    if values is not None and values.size == shape[0] * shape[1] and values.size:
+        return values.reshape(shape), ()
+    if values is not None and not values.size:
+        raise FormatError(path, "the file has no frames", line_of(text, at))
+    whole = None if values is None else _whole_lines(text[at:], shape[1])
+    if values is None or not whole:
         raise _diagnose(text[at:], line_of(text, at), shape, path)
-    return values.reshape(shape)
+    cut = " and ends within another" if values.size > whole * shape[1] else ""
+    note = f"declares {shape[0]} frames but holds {whole} whole ones{cut}; those {whole} are read"
+    return values[: whole * shape[1]].reshape(whole, shape[1]), (note,)
+
+
+def _whole_lines(text: str, channels: int) -> int:
+    """Number of filled lines of ``channels`` values; 0 if any but the last has another number."""
+    counts = [count for count in (len(line.split()) for line in text.split("\n")) if count]
+    if counts and counts[-1] < channels:
+        counts.pop()
+    return len(counts) if set(counts) == {channels} else 0
 
 
 def _diagnose(text: str, first_line: int, shape: tuple[int, int], path: Path) -> FormatError:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
@@ -11,14 +11,12 @@ import numpy.typing as npt
 
 from motionrt.errors import InvalidInputError
 from motionrt.formats.atomic import write_bytes
+from motionrt.formats.bvh.euler import channel_order, euler_degrees
 from motionrt.formats.tips import bone_tips
 from motionrt.motion.kinematics import fk
 from motionrt.motion.motion import Motion
-from motionrt.motion.rotations import matrix_to_euler
 from motionrt.rigs.clip import RigClip
 
-_ORDER = "ZXY"
-_ROTATIONS = " ".join(f"{axis}rotation" for axis in _ORDER)
 _POSITIONS = "Xposition Yposition Zposition"
 _MOVES = 1e-5  # share of the rig's largest offset
 
@@ -26,9 +24,9 @@ _MOVES = 1e-5  # share of the rig's largest offset
 def write_bvh(motion: Motion, path: str | Path, *, scale: float = 100.0, t_pose: bool = False) -> Path:
     """Write a motion as BVH, whole or not at all.
 
-    Y is up; the root's OFFSET is zero and its position channels are absolute; every joint has the rotation
-    channels ``Zrotation Xrotation Yrotation`` (degrees, unwrapped over time so that interpolation does not
-    spin). Six decimals.
+    Y is up; the root's OFFSET is zero and its position channels are absolute; every joint has three rotation channels
+    in degrees, ``Zrotation Xrotation Yrotation`` where they come nowhere near gimbal lock and the joint's hinge first
+    at hips, knees and elbows. Angles run on from frame to frame, so that interpolation does not spin. Six decimals.
 
     Args:
         motion: what to write.
@@ -67,7 +65,7 @@ def write_rig_bvh(clip: RigClip, path: str | Path, *, scale: float = 1.0) -> Pat
     clip = _without_rest(clip)
     writer = _Hierarchy(clip, scale, bone_tips(clip.names, clip.parents, clip.offsets))
     lines = ["HIERARCHY", *writer.lines(0, ""), "MOTION", f"Frames: {clip.frames}"]
-    lines += [f"Frame Time: {1 / clip.fps:.10f}", *_rows(clip, writer.order, writer.moved, scale), ""]
+    lines += [f"Frame Time: {1 / clip.fps:.10f}", *_rows(writer), ""]
     content = "\n".join(lines).encode("utf-8")
     return write_bytes(path, content)
 
@@ -78,6 +76,7 @@ class _Hierarchy:
     def __init__(self, clip: RigClip, scale: float, tips: dict[int, npt.NDArray[np.floating]]) -> None:
         self.clip, self.scale, self.tips = clip, scale, tips
         self.order: list[int] = []
+        self.channels: dict[int, str] = {}
         self.moved = _moved(clip)
         self._inner = set(clip.parents)
 
@@ -91,7 +90,9 @@ class _Hierarchy:
         yield f"{indent}{'ROOT' if root else 'JOINT'} {clip.names[joint]}"
         yield f"{indent}{{"
         yield f"{inner}OFFSET {_vector(np.zeros(3) if root else clip.offsets[joint] * self.scale)}"
-        yield f"{inner}CHANNELS {f'6 {_POSITIONS}' if self.moved[joint] else '3'} {_ROTATIONS}"
+        self.channels[joint] = channel_order(clip.names[joint], clip.rotations[:, joint])
+        turns = " ".join(f"{axis}rotation" for axis in self.channels[joint])
+        yield f"{inner}CHANNELS {f'6 {_POSITIONS}' if self.moved[joint] else '3'} {turns}"
         for child, parent in enumerate(clip.parents):
             if parent == joint:
                 yield from self.lines(child, inner)
@@ -136,21 +137,17 @@ def _with_t_pose(motion: Motion) -> Motion:
     )
 
 
-def _rows(clip: RigClip, order: Sequence[int], moved: Sequence[bool], scale: float) -> list[str]:
-    columns = []
-    for joint in order:
-        if moved[joint]:
-            columns.append(clip.translations[:, joint].astype(np.float64) * scale)
-        columns.append(euler_degrees(clip.rotations[:, joint], _ORDER))
+def _rows(writer: _Hierarchy) -> list[str]:
+    columns: list[npt.NDArray[np.floating]] = []
+    clip = writer.clip
+    for joint in writer.order:
+        if writer.moved[joint]:
+            columns.append(clip.translations[:, joint].astype(np.float64) * writer.scale)
+        columns.append(euler_degrees(clip.rotations[:, joint], writer.channels[joint]))
     return value_rows(np.concatenate(columns, axis=1))
 
 
-def euler_degrees(rotations: npt.NDArray[np.floating], order: str) -> npt.NDArray[np.float64]:
-    """Angles ``(F, 3)`` in degrees of ``(F, 3, 3)``, without jumps by whole turns from frame to frame."""
-    return np.asarray(np.rad2deg(np.unwrap(matrix_to_euler(rotations.astype(np.float64), order), axis=0)))
-
-
-def value_rows(table: npt.NDArray[np.float64]) -> list[str]:
+def value_rows(table: npt.NDArray[np.floating]) -> list[str]:
     """Lines of the MOTION part: ``(F, C)`` with six decimals."""
     row = " ".join(["%.6f"] * table.shape[1])
     return [row % tuple(values) for values in (np.round(table, 6) + 0.0).tolist()]

@@ -6,12 +6,14 @@ import base64
 import binascii
 from pathlib import Path
 from typing import Any
+from urllib.parse import unquote
 
 import numpy as np
 import numpy.typing as npt
 
 from motionrt.errors import FormatError
 from motionrt.formats.gltf.container import Json
+from motionrt.limits import how_to_raise, limits
 
 _TYPES = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 _COMPONENTS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
@@ -41,7 +43,7 @@ class GlbArrays:
         """Accessor as floats: ``(N,)``, ``(N, k)`` or ``(N, 4, 4)``; integers come as fractions.
 
         Raises:
-            FormatError: sparse, compressed, outside of the file, or with numbers that are not finite; says ``what``.
+            FormatError: compressed, outside of the file, or with numbers that are not finite; says ``what``.
         """
         if accessor not in self._known:
             self._known[accessor] = self._read(accessor, what)
@@ -54,22 +56,36 @@ class GlbArrays:
 
     def _read(self, accessor: int, what: str) -> npt.NDArray[np.float64]:
         entry = self._entry("accessors", accessor, what)
-        if "sparse" in entry:
-            raise self._error(f"{what} is a sparse accessor; export without sparse accessors")
         width, component = _TYPES.get(entry.get("type", ""), 0), entry.get("componentType")
         count = entry["count"] if _whole(entry.get("count")) else 0
         if not width or component not in _COMPONENTS or count < 1:
             raise self._error(f"{what} has an accessor of an unknown kind")
-        rows = self._rows(entry, what, count, width, np.dtype(_COMPONENTS[component]))
-        self._left -= rows.size
+        kind, sparse = np.dtype(_COMPONENTS[component]), "sparse" in entry
+        rows = np.empty(0) if sparse else self._rows(entry, what, count, width, kind)
+        self._left -= count * width
         if self._left < 0:
             raise self._error(f"its animation holds more than {NUMBER_LIMIT} numbers; cut it")
+        rows = self._sparse(entry, what, count, width, kind) if sparse else rows
         values = rows.astype(np.float64)
         if component in _LARGEST:
             values = np.maximum(values / _LARGEST[component], -1.0)
         if not np.isfinite(values).all():
             raise self._error(f"{what} holds numbers that are not finite")
         return _shaped(values, width)
+
+    def _sparse(self, entry: Json, what: str, count: int, width: int, kind: np.dtype[Any]) -> npt.NDArray[Any]:
+        """Rows of which only some are stored, over others or zeros  [glTF 2.0, 3.6.2.3]."""
+        sparse, inner = entry["sparse"], {5121: "<u1", 5123: "<u2", 5125: "<u4"}
+        base = self._rows(entry, what, count, width, kind) if "bufferView" in entry else np.zeros((count, width), kind)
+        some = sparse.get("count", 0) if isinstance(sparse, dict) else 0
+        if not _whole(some) or not 0 < some <= count or sparse["indices"].get("componentType") not in inner:
+            raise self._error(f"{what} is a sparse accessor of sizes that do not fit: the file is damaged")
+        places = self._rows(sparse["indices"], what, some, 1, np.dtype(inner[sparse["indices"]["componentType"]]))
+        if int(places.max()) >= count:
+            raise self._error(f"{what} is a sparse accessor that points outside of itself: the file is damaged")
+        out = base.copy()
+        out[places[:, 0].astype(np.int64)] = self._rows(sparse["values"], what, some, width, kind)
+        return out
 
     def _rows(self, entry: Json, what: str, count: int, width: int, kind: np.dtype[Any]) -> npt.NDArray[Any]:
         if "bufferView" not in entry:
@@ -102,7 +118,19 @@ class GlbArrays:
                 return base64.b64decode(uri.split(",", 1)[1], validate=True)
             except binascii.Error as error:
                 raise self._error(f"the data of {what} is not base64: {error}") from error
-        raise self._error(f"{what} lies in another file ('{str(uri)[:60]}'); save everything in one .glb")
+        return self._beside(str(uri), what)
+
+    def _beside(self, uri: str, what: str) -> bytes:
+        """A buffer in a file in or below the folder of the document; nothing else is opened."""
+        folder = self._path.resolve().parent
+        place = (folder / unquote(uri)).resolve()
+        if "://" in uri or not place.is_relative_to(folder):
+            raise self._error(f"{what} lies in another file ('{uri[:60]}'); save everything in one .glb")
+        if not place.is_file():
+            raise self._error(f"{what} lies in '{uri[:60]}', which is not beside it; keep them together")
+        if place.stat().st_size > limits().file_bytes:
+            raise self._error(f"'{uri[:60]}' has {place.stat().st_size} bytes: {how_to_raise('file_bytes')}")
+        return place.read_bytes()
 
     def _entry(self, key: str, index: object, what: str) -> Json:
         entries = self._document.get(key, [])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import json
 import struct
 from pathlib import Path
@@ -14,15 +15,17 @@ from motionrt.untrusted import json_text
 
 Json = dict[str, Any]
 
+GLTF_SUFFIXES = (".glb", ".gltf", ".vrm", ".vrma")
+
 _MAGIC, _JSON, _BIN = 0x46546C67, 0x4E4F534A, 0x004E4942
 
 
 def read_container(path: Path) -> tuple[Json, bytes]:
-    """The JSON object and the binary chunk (empty if there is none) of a GLB file.
+    """The JSON object and the binary chunk (empty if there is none) of a GLB or, by its content, a glTF text file.
 
     Raises:
         MotionFileNotFoundError: there is no such file.
-        FormatError: not a whole GLB file of version 2, or larger than the limits above.
+        FormatError: not a whole file of glTF 2, or larger than the limits above.
     """
     require_file(path)
     try:
@@ -39,6 +42,14 @@ def pack_container(document: Json, binary: bytes) -> bytes:
     return struct.pack("<III", _MAGIC, 2, 12 + len(chunks)) + chunks
 
 
+def pack_text(document: Json, binary: bytes) -> bytes:
+    """The bytes of a glTF text file with its one buffer inside."""
+    uri = "data:application/octet-stream;base64," + base64.b64encode(binary).decode("ascii")
+    first = {**document["buffers"][0], "uri": uri, "byteLength": len(binary)}
+    whole = {**document, "buffers": [first, *document["buffers"][1:]]}
+    return json.dumps(whole, ensure_ascii=False, allow_nan=False, separators=(",", ":")).encode("utf-8")
+
+
 def _chunk(kind: int, content: bytes, filler: bytes) -> bytes:
     content += filler * (-len(content) % 4)
     return struct.pack("<II", len(content), kind) + content
@@ -46,6 +57,8 @@ def _chunk(kind: int, content: bytes, filler: bytes) -> bytes:
 
 def _read(file: BinaryIO, size: int, path: Path) -> tuple[Json, bytes]:
     head = file.read(12)
+    if head.lstrip(b"\xef\xbb\xbf \t\r\n")[:1] == b"{":
+        return _parse(head + _rest_of_text(file, size, path), path), b""
     if len(head) < 12 or struct.unpack("<I", head[:4])[0] != _MAGIC:
         raise FormatError(path, _not_glb(head))
     version, length = struct.unpack("<II", head[4:])
@@ -62,6 +75,12 @@ def _read(file: BinaryIO, size: int, path: Path) -> tuple[Json, bytes]:
         kind, block = _next_chunk(file, at, length, path, limits().file_bytes)
         binary = block if kind == _BIN else b""
     return _parse(text, path), binary
+
+
+def _rest_of_text(file: BinaryIO, size: int, path: Path) -> bytes:
+    if size > limits().json_bytes:
+        raise FormatError(path, f"holds {size} bytes of JSON: {how_to_raise('json_bytes')}")
+    return file.read()
 
 
 def _next_chunk(file: BinaryIO, at: int, end: int, path: Path, limit: int) -> tuple[int, bytes]:
@@ -83,11 +102,11 @@ def _parse(text: bytes, path: Path) -> Json:
     if not isinstance(document, dict) or not isinstance(document.get("asset"), dict):
         raise FormatError(path, "its JSON is not a glTF document: it has no asset")
     if not str(document["asset"].get("version", "")).startswith("2."):
-        raise FormatError(path, "is not glTF 2; save it again as glTF 2.0 binary")
+        raise FormatError(path, "is not glTF 2; save it again as glTF 2.0")
     return document
 
 
 def _not_glb(head: bytes) -> str:
-    if head.lstrip()[:1] == b"{":
-        return "is glTF with JSON text, not GLB; save it as glTF Binary (.glb), one file with everything in it"
-    return "is not a GLB file: it does not start with 'glTF'"
+    if head.startswith(b"version http"):
+        return "is a pointer of git LFS, not the file itself: fetch it with 'git lfs pull'"
+    return "is not a GLB file nor glTF: it starts neither with 'glTF' nor with JSON"

@@ -14,6 +14,7 @@ from motionrt.formats.gltf.bind import bind_pose
 from motionrt.formats.gltf.choice import chosen, names_of
 from motionrt.formats.gltf.clock import USUAL_FPS, frame_times
 from motionrt.formats.gltf.container import Json, read_container
+from motionrt.formats.gltf.humanoid import humanoid_nodes
 from motionrt.formats.gltf.nodes import NodeTree, read_nodes
 from motionrt.formats.gltf.skeleton import GlbSkeleton, find_skeleton
 from motionrt.formats.gltf.tracks import Track, count_keys, read_tracks
@@ -61,12 +62,24 @@ class GlbDocument:
         names = names_of(entries)
         if animation is not None:
             return self._tracks(entries[chosen("animation", animation, names, self.path)]) or None
-        keys = [count_keys(entry, self.arrays, self._joints) for entry in entries]
-        found = [i for i, count in enumerate(keys) if count > 1] or [i for i, count in enumerate(keys) if count]
+        found = self._moving
         if len(found) > 1:
             known = ", ".join(names[i] for i in found)
             raise FormatError(self.path, f"holds {len(found)} animations; choose with animation=, one of: {known}")
         return self._tracks(entries[found[0]]) if found else None
+
+    @property
+    def _moving(self) -> list[int]:
+        """Indices of the animations of more than one key that move the skeleton, or of those that hold a pose of it."""
+        entries = self.json.get("animations", [])
+        keys = [count_keys(entry, self.arrays, self._joints) for entry in entries]
+        return [i for i, count in enumerate(keys) if count > 1] or [i for i, count in enumerate(keys) if count]
+
+    @property
+    def animations(self) -> list[str]:
+        """Names of the animations to choose from."""
+        names = names_of(self.json.get("animations", []))
+        return [names[i] for i in self._moving]
 
     @property
     def _joints(self) -> dict[int, int]:
@@ -94,7 +107,13 @@ class GlbDocument:
         offsets, rest = bind_pose(self.json, self.arrays, self.tree, self.skeleton)
         rotations, translations = self._sampled(tracks or {}, times)
         names, parents = self.skeleton.names, tuple(self.skeleton.parents)
-        return RigClip(names, parents, offsets, rotations, translations, rate, "y", 1.0, rest)
+        return RigClip(names, parents, offsets, rotations, translations, rate, "y", 1.0, rest, self._known())
+
+    def _known(self) -> dict[str, str]:
+        """The humanoid map of the file, if it has one, in names of the joints."""
+        place, names = self._joints, self.skeleton.names
+        nodes = humanoid_nodes(self.json)
+        return {role: names[place[node]] for role, node in nodes.items() if node in place}
 
     def _sampled(self, tracks: Tracks, times: Array) -> tuple[FloatArray, FloatArray]:
         joints = len(self.skeleton.nodes)

@@ -43,11 +43,13 @@ def find_skeleton(document: Json, tree: NodeTree, path: Path, skin: int | str | 
     Raises:
         FormatError: several skeletons to choose from, none at all, several roots, or scales that no rig can have.
     """
-    joints = _skin_joints(document, tree, path, skin) or _animated(document, tree)
+    skinned = _skin_joints(document, tree, path, skin)
+    moving = _moving(document, tree)
+    joints = skinned or _below(moving, document, tree)
     if not joints:
         raise FormatError(path, "holds no skeleton: neither a skin nor an animated node")
     joints = _one_tree(joints, tree, path)
-    members = tree.with_above(joints)
+    members = _completed(tree.with_above(joints), moving, document, tree)
     if len(members) > limits().joints:
         raise FormatError(path, f"has a skeleton of {len(members)} joints: {how_to_raise('joints')}")
     nodes = [node for node in tree.order if node in members]
@@ -85,17 +87,48 @@ def _connected(skins: list[set[int]], tree: NodeTree) -> list[set[int]]:
     return [figure for figure in figures if figure]
 
 
-def _animated(document: Json, tree: NodeTree) -> set[int]:
-    """Without a skin: all nodes below the topmost animated ones that carry neither mesh nor camera."""
+def _moving(document: Json, tree: NodeTree) -> set[int]:
+    """Nodes that any animation turns or moves."""
     targets = {
         channel.get("target", {}).get("node")
         for animation in document.get("animations", [])
         for channel in animation.get("channels", [])
         if channel.get("target", {}).get("path") in {"rotation", "translation"}
     }
-    moving = {node for node in targets if isinstance(node, int) and 0 <= node < len(tree.names)}
-    bare = {i for i, node in enumerate(document.get("nodes", [])) if not {"mesh", "camera"} & set(node)}
-    return {node for node in bare if moving.intersection(tree.above(node))}
+    return {node for node in targets if isinstance(node, int) and 0 <= node < len(tree.names)}
+
+
+def _bare(document: Json) -> set[int]:
+    return {i for i, node in enumerate(document.get("nodes", [])) if not {"mesh", "camera"} & set(node)}
+
+
+def _below(moving: set[int], document: Json, tree: NodeTree) -> set[int]:
+    """Without a skin: all nodes below the animated ones that carry neither mesh nor camera."""
+    return {node for node in _bare(document) if moving.intersection(tree.above(node))}
+
+
+def _completed(members: set[int], moving: set[int], document: Json, tree: NodeTree) -> set[int]:
+    """``members`` and, where they are a part of a figure, the nodes of their tree that are the rest of it.
+
+    A skin may cover the upper body alone, an animation move the arms alone: nodes that hang on a joint of the figure,
+    carry neither mesh nor camera and are animated, or have two more generations below them, are joints as well.
+    """
+    skins = [set(skin.get("joints", [])) for skin in document.get("skins", [])]
+    others = set().union(*(skin for skin in skins if not skin & members)) if skins else set()
+    out, bare = set(members), _bare(document) - others
+    anchors = {node for node in members if tree.parents[node] >= 0 or node in moving}
+    for node in bare:
+        line = tree.above(node)
+        limb = any(above in bare and tree.parents[above] in anchors for above in line)
+        if limb and not others.intersection(line) and (node in moving or _deep(line, members)):
+            out.update(tree.with_above([node]) & (bare | members))
+    return out
+
+
+def _deep(line: list[int], members: set[int]) -> bool:
+    """Whether a node stands at least two generations below the joint that it hangs on."""
+    away = next((steps for steps, node in enumerate(line) if node in members), 0)
+    return away > 2
 
 
 def _one_tree(joints: set[int], tree: NodeTree, path: Path) -> set[int]:

@@ -9,7 +9,8 @@ import numpy as np
 from motionrt.formats.atomic import write_bytes
 from motionrt.formats.gltf.builder import ARRAY_BUFFER, GlbBuilder
 from motionrt.formats.gltf.channels import build_animation
-from motionrt.formats.gltf.container import Json, pack_container
+from motionrt.formats.gltf.container import Json, pack_container, pack_text
+from motionrt.formats.gltf.humanoid import add_humanoid
 from motionrt.formats.gltf.mesh import bone_mesh
 from motionrt.formats.tips import bone_tips
 from motionrt.motion.motion import Motion
@@ -21,7 +22,7 @@ _COLOUR = [0.32, 0.52, 0.78, 1.0]
 
 
 def write_glb(motion: Motion, path: str | Path) -> Path:
-    """Write a motion as GLB, whole or not at all.
+    """Write a motion as GLB, whole or not at all; as ``.gltf`` with everything in its text, as ``.vrma`` for VRM.
 
     Metres, Y up, facing +Z, as glTF wants it. One node a joint with the joint's name; a skin whose bind pose is the
     T-pose on the floor; an octahedron a bone as its mesh; one animation named after the file: rotations of all joints
@@ -60,8 +61,10 @@ def write_rig_glb(clip: RigClip, path: str | Path) -> Path:
     _add_body(builder, clip)
     joints = range(len(clip.names))
     document["animations"] = [build_animation(builder, clip, path.stem, joints, np.ones(len(joints)), clip.offsets)]
-    content = pack_container(document, builder.finish())
-    return write_bytes(path, content)
+    if path.suffix.lower() == ".vrma":
+        add_humanoid(document)
+    pack = pack_text if path.suffix.lower() == ".gltf" else pack_container
+    return write_bytes(path, pack(document, builder.finish()))
 
 
 def _nodes(clip: RigClip) -> list[Json]:

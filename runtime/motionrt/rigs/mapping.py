@@ -1,0 +1,70 @@
+"""Mapping files: which joint of a rig is which joint of ``smpl24``, to be saved, reused and shared."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import yaml
+
+from motionrt.errors import InvalidInputError
+from motionrt.motion.skeleton import SMPL24
+from motionrt.rigs.clip import RigClip
+from motionrt.rigs.stance import read_stance
+
+_LARGEST = 2**20
+
+
+def load_mapping(path: str | Path) -> dict[str, str]:
+    """The mapping in a YAML or JSON file: ``smpl24`` joint name -> joint name of the rig.
+
+    Raises:
+        InvalidInputError: the file cannot be read, or does not map names to names.
+    """
+    path = Path(path)
+    try:
+        if path.stat().st_size > _LARGEST:
+            raise InvalidInputError(f"{path} is too large for a mapping ({path.stat().st_size} bytes)")
+        mapping = yaml.safe_load(path.read_text(encoding="utf-8-sig"))
+    except (OSError, ValueError, yaml.YAMLError, RecursionError) as error:
+        if isinstance(error, InvalidInputError):
+            raise
+        raise InvalidInputError(f"cannot read the mapping {path}: {' '.join(str(error).split())}") from error
+    if not isinstance(mapping, dict) or not all(isinstance(name, str) for pair in mapping.items() for name in pair):
+        raise InvalidInputError(f'{path} must map joint names to joint names, such as {{"left_hip": "L_Thigh"}}')
+    return mapping
+
+
+def mapping_text(mapping: Mapping[str, str]) -> str:
+    """A mapping as YAML, in the order of ``smpl24``."""
+    lines = [f"{role}: {_quoted(mapping[role])}" for role in SMPL24.names if role in mapping]
+    return "\n".join(["# smpl24 joint: joint of the rig", *lines, ""])
+
+
+def save_mapping(mapping: Mapping[str, str], path: str | Path) -> Path:
+    """Write a mapping as YAML; returns ``path``.
+
+    Raises:
+        InvalidInputError: the file cannot be written.
+    """
+    path = Path(path)
+    try:
+        path.write_text(mapping_text(mapping), encoding="utf-8")
+    except OSError as error:
+        raise InvalidInputError(f"cannot write {path}: {error.strerror or error}") from error
+    return path
+
+
+def _quoted(name: str) -> str:
+    return '"' + name.replace("\\", "\\\\").replace('"', '\\"') + '"'
+
+
+def draft_mapping(clip: RigClip, mapping: Mapping[str, str] | None = None) -> dict[str, str]:
+    """What motionrt takes the joints of a rig for, ``smpl24`` joint name -> joint name; what is given stays.
+
+    Raises:
+        RigError: the rig is no person, or joints are missing; the message names them.
+    """
+    given = {**clip.known, **(mapping or {})} or None
+    roles = read_stance(clip, given, [clip.rest_rotations(), clip.rotations[0]]).roles
+    return {role: clip.names[joint] for role, joint in roles.joints.items()}
