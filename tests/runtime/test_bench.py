@@ -165,7 +165,7 @@ def test_a_rival_that_is_not_installed_is_named_with_those_that_are(
 
 
 @pytest.mark.parametrize(
-    ("module", "remedy"), [("no_such_package", r"pip install motionrt\[export\]"), ("double", "pip install double")]
+    ("module", "remedy"), [("no_such_package", "pip install motionrt-export"), ("double", "pip install double")]
 )
 def test_a_rival_whose_packages_are_missing_says_what_to_install(
     monkeypatch: pytest.MonkeyPatch, work: Workload, module: str, remedy: str

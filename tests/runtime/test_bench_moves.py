@@ -127,7 +127,7 @@ def test_a_benchmark_that_the_models_cannot_walk_is_left_out(monkeypatch: pytest
 
 
 def test_an_unknown_benchmark_is_refused_with_those_there_are(capsys: pytest.CaptureFixture[str]) -> None:
-    with pytest.raises(InvalidInputError, match=r"no benchmark is called swim; choose from: text, motion"):
+    with pytest.raises(InvalidInputError, match=r"no benchmark is called swim; choose from: text, full-text, motion"):
         chosen(["walk", "swim"])
     assert main(["bench", "--only", "swim"]) == 1
     assert "no benchmark is called swim" in capsys.readouterr().err

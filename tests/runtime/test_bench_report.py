@@ -236,7 +236,7 @@ def test_the_command_prints_a_table_or_markdown(tiny: Path, capsys: pytest.Captu
 def test_the_command_profiles_a_benchmark(tiny: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["bench", "--profile", "text", "--threads", "1", "--models", str(tiny)]) == 0
     found = capsys.readouterr().out
-    assert "tmr_text" in found
+    assert "tmr_student" in found
     assert "outside of models" in found
     assert main(["bench", "--profile", "walk", "--threads", "1", "--models", str(tiny)]) == 1
     assert "needs models that are not there: walknet" in capsys.readouterr().err

@@ -50,7 +50,7 @@ def library(tmp_path_factory: pytest.TempPathFactory) -> Path:
     text = (folder / "idle.bvh").read_text(encoding="utf-8")
     odd = folder / "odd time.bvh"
     odd.write_text(odd.read_text(encoding="utf-8").replace("0.033333", "0.0416667"), encoding="utf-8")
-    (folder / "cut.bvh").write_text(text[: len(text) * 2 // 3], encoding="utf-8")
+    (folder / "cut.bvh").write_text(text[: text.index("MOTION") // 2], encoding="utf-8")  # amid its joints
     (folder / "Walk Cycles" / "not a motion.bvh").write_bytes(bytes(range(256)))
     (folder / "nan.bvh").write_text(text.replace("0.0", "nan"), encoding="utf-8")
     return folder

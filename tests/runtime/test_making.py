@@ -80,7 +80,7 @@ def test_the_sentence_encoder_is_opened_once_for_searching_and_generating(runtim
         ({"seconds": 0}, "seconds must be a number from 0.5 to 8, not 0"),
         ({"seconds": 10_000}, "seconds must be a number from 0.5 to 8, not 10000"),
         ({"seconds": float("nan")}, "seconds must be a number from 0.5 to 8, not nan"),
-        ({"n": 0}, "n must be a whole number from 1, not 0"),
+        ({"n": 0}, "n must be a whole number from 1 to 1000, not 0"),
         ({"temperature": -1}, "temperature must be a number from 0 to 10, not -1"),
         ({"sampler": "gan"}, "unknown sampler 'gan'"),
         ({"seed": -3}, "seed must be a whole number from 0"),

@@ -61,7 +61,7 @@ def from_positions(joints: Array, fps: float) -> Motion:
     _bend_limbs(pointing, turned, given)
     for limbs, children in _LIMBS:
         _carry(local, turned, pointing, limbs, children)
-    return Motion(local.astype(np.float32), given[:, 0].astype(np.float32), fps)
+    return Motion(_told(local).astype(np.float32), given[:, 0].astype(np.float32), fps)
 
 
 def checked_joints(joints: Array) -> Array:
@@ -109,6 +109,13 @@ def _frame(bones: Array, joint: int) -> Array:
     x = normalise(left - right)
     z = normalise(np.cross(x, up))
     return np.stack([x, np.cross(z, x), z], axis=-1)
+
+
+def _told(rotations: Array) -> Array:
+    """Rotations ``(F, 24, 3, 3)``, none where joints coincide and nothing tells one."""
+    square = rotations @ np.swapaxes(rotations, -1, -2)
+    told = np.abs(square - np.eye(3)).max(axis=(-2, -1)) < 1e-3
+    return np.where(told[..., None, None], rotations, np.eye(3))
 
 
 def _carried(rotations: Array, joints: list[int]) -> Array:

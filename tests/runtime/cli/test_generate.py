@@ -89,7 +89,7 @@ def test_options_reach_the_sampler(run_json: RunJson, tmp_path: Path) -> None:
         ([TEXT, "--seconds", "0"], "seconds must be a number from 0.5 to 8, not 0.0"),
         ([TEXT, "--seconds", "10000"], "seconds must be a number from 0.5 to 8, not 10000.0"),
         ([TEXT, "--seconds", "nan"], "seconds must be a number from 0.5 to 8, not nan"),
-        ([TEXT, "-n", "0"], "n must be a whole number from 1, not 0"),
+        ([TEXT, "-n", "0"], "n must be a whole number from 1 to 1000, not 0"),
         ([TEXT, "--temperature", "-1"], "temperature must be a number from 0 to 10, not -1.0"),
         ([TEXT, "--temperature", "1e308"], "temperature must be a number from 0 to 10, not 1e+308"),
         ([TEXT, "--guidance", "1e30"], "guidance must be a number from 0 to 100, not 1e+30"),

@@ -31,7 +31,7 @@ def write_folder(folder: Path) -> Path:
         path.parent.mkdir(parents=True, exist_ok=True)
         save_motion(motion, path.with_suffix(path.suffix.lower())).rename(path)
     text = (folder / "long.bvh").read_text(encoding="utf-8")
-    (folder / "cut off.bvh").write_text(text[: len(text) // 2], encoding="utf-8")
+    (folder / "cut off.bvh").write_text(text[: text.index("MOTION") // 2], encoding="utf-8")  # amid its joints
     (folder / "empty.bvh").touch()
     (folder / "not zip.npz").write_bytes(b"nothing")
     for ignored in (".hidden/walk.bvh", "._long.bvh", "notes.txt"):
