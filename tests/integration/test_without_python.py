@@ -16,6 +16,7 @@ from motionrt.locomotion.crowd import Crowd
 from motionrt.models.sessions import Sessions
 from motionrt.models.text import load_tokenizer
 from motionrt.models.walknet import WalkModel
+from motionrt.retrieval import EMBEDDING_ONLY
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "node"
 
@@ -49,7 +50,7 @@ def test_a_text_is_embedded_and_searched_as_in_python(text: str) -> None:
     runtime = motionrt.Runtime(threads=1, text_tower="full")
     assert found["tokens"] == load_tokenizer(Sessions()).encode(text).ids
     np.testing.assert_allclose(found["embedding"], runtime.embed_text(text), atol=1e-4)
-    hits = runtime.retrieve(text, k=7)
+    hits = runtime.retrieve(text, k=7, weights=EMBEDDING_ONLY, anyway=True)
     np.testing.assert_allclose([hit["score"] for hit in found["hits"]], [hit.score for hit in hits], atol=1e-4)
     assert [hit["id"] for hit in found["hits"]] == [hit.id for hit in hits]
     assert [hit["end_s"] for hit in found["hits"]] == pytest.approx([hit.end_s for hit in hits])

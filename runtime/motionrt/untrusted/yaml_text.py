@@ -17,7 +17,7 @@ def compose(text: str, fail: Fail) -> tuple[Any, Any]:
 
     check_yaml(text, fail)
     try:
-        loader = yaml.SafeLoader(text)
+        loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)(text)
         return loader.get_single_node(), loader
     except yaml.YAMLError as error:
         raise _told(error, fail) from error
