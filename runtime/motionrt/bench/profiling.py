@@ -60,12 +60,14 @@ def benchmark_work(
     with tempfile.TemporaryDirectory(prefix="motionrt-profile-") as folder:
         options = quiet_options(threads)
         options.enable_profiling = True
-        options.profile_file_prefix = str(Path(folder) / "profile")
         setting = Setting(models, threads, Workload.standard(SIZES), variant=variant, session_options=options)
         with closing(setting):
             _check(setting, benchmark)
             names = setting.named(needed)
-            sessions = {name: setting.sessions(name).session(name, variant) for name in names}  # one after the other
+            sessions: dict[str, Any] = {}
+            for name in names:  # one after the other, each into a file of its own name
+                options.profile_file_prefix = str(Path(folder) / name)
+                sessions[name] = setting.sessions(name).session(name, variant)
             label, case = _first(setting, benchmark)
             calls, wall = _repeat(case.call, seconds)
             profiles = {name: Path(session.end_profiling()) for name, session in sessions.items()}
