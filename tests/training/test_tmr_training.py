@@ -10,16 +10,18 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from motions import walking
 
 torch = pytest.importorskip("torch", reason="training tests need torch (extra 'train')")
 pytest.importorskip("safetensors", reason="training tests need safetensors (extra 'train')")
 pytest.importorskip("tqdm", reason="training tests need tqdm (extra 'train')")
 
+from motionrt.motion.features import guo263  # noqa: E402
 from motionrt_training.augment import Augmentation, View, draw_view, view_motion, view_slots, view_text  # noqa: E402
 from motionrt_training.batches import EpochPlan  # noqa: E402
 from motionrt_training.checkpoint import load_any, load_release, load_state, release  # noqa: E402
 from motionrt_training.networks.tmr import TMR  # noqa: E402
-from motionrt_training.packed import PackedClip, PackedCorpus, Window, load_packed, statistics  # noqa: E402
+from motionrt_training.packed import PackedClip, PackedCorpus, Window, load_packed, mirror_columns, statistics  # noqa: E402
 from motionrt_training.recipes.tmr import parser  # noqa: E402
 from motionrt_training.text_cache import TextFeatures, cached_features  # noqa: E402
 from motionrt_training.tmr_task import TmrSettings, TmrTask  # noqa: E402
@@ -270,3 +272,18 @@ def test_windows_bring_their_texts_and_slots_into_the_views() -> None:
     views = [draw_view(clip, Augmentation(speed=0.0, spoken=0.5), rng) for _ in range(60)]
     said = {(view_text(clip, v), v.first, v.frames, view_slots(clip, v)) for v in views}
     assert said == {("walk", 0, 30, (3,)), ("walk", 0, 30, (4,)), ("hop", 4, 10, (1,)), ("hop", 4, 10, (2,))}
+
+
+@pytest.mark.parametrize("turn", [0.4, -0.7])
+def test_columns_that_change_places_are_the_mirror_image_but_for_rotations(turn: float) -> None:
+    features = guo263.encode(walking(80, turn=turn))
+    exact, quick = guo263.mirror(features), mirror_columns(features)
+    metres = {
+        "yaw": (0, 2e-3),
+        "planar": (guo263.PLANAR, 1e-3),
+        "height": (3, 1e-3),
+        "joints": (guo263.POSITIONS, 0.02),
+    }
+    for name, (columns, most) in metres.items():
+        np.testing.assert_allclose(quick[:, columns], exact[:, columns], atol=most, err_msg=name)
+    np.testing.assert_array_equal(mirror_columns(quick), features)
