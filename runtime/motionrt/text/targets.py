@@ -50,3 +50,23 @@ def attribute_targets(attributes: Attributes) -> tuple[FloatArray, npt.NDArray[n
     known["leg_dominance"] = a.left_foot_speed + a.right_foot_speed > 0.2
     scaled = np.tanh([values[name] / scale for name, (_, scale) in _SCALED.items()])
     return scaled.astype(np.float32), np.array([known[name] for name in TARGETS])
+
+
+def mirror_targets(targets: npt.ArrayLike) -> FloatArray:
+    """Numbers ``(..., A)`` of the mirror image; what is known of it is the same, sides exchanged."""
+    return np.asarray(np.asarray(targets, np.float32)[..., _TWIN] * _SIGNS)
+
+
+def mirror_known(known: npt.ArrayLike) -> npt.NDArray[np.bool_]:
+    """Which numbers ``(..., A)`` mean something in the mirror image."""
+    return np.asarray(np.asarray(known, bool)[..., _TWIN])
+
+
+def _twin(name: str) -> str:
+    side, _, rest = name.partition("_")
+    return {"left": "right_", "right": "left_"}.get(side, side + "_") + rest if rest else name
+
+
+_TWIN = [TARGETS.index(_twin(name)) for name in TARGETS]
+_SIGNED = ("turn", "path_bend", "walk_left", "arm_dominance", "leg_dominance")
+_SIGNS = np.array([-1.0 if name in _SIGNED else 1.0 for name in TARGETS], np.float32)
