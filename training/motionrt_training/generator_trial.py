@@ -16,7 +16,7 @@ from motionrt.motion.features import ego77
 from motionrt.motion.skeleton import SMPL24
 from motionrt.synthesis.motion_diffusion import solve
 from motionrt.synthesis.sampling import MOTION_STEPS, POSE_GUIDANCE, WAY_GUIDANCE
-from motionrt.text import SLOTS, TARGETS, agreement, parse_query, slots_of_text
+from motionrt.text import SLOTS, agreement, parse_query, slots_of_text, targets_of_text
 from motionrt_training.networks.motion_denoiser import Condition, MotionDenoiser
 
 PROMPTS = Path(__file__).parent / "evaluate" / "validation_prompts.txt"
@@ -128,10 +128,12 @@ def _told(texts: Sequence[str], tokens: Sequence[NDArray[np.floating]], frames: 
     for number, rows in enumerate(tokens):
         words[number, : len(rows)], seen[number, : len(rows)] = rows, True
     slots = np.stack([slots_of_text(parse_query(text)) for text in texts]).reshape(count, len(SLOTS))
+    numbers = [targets_of_text(parse_query(text), frames / ego77.FPS) for text in texts]
     there = torch.zeros(count, length, dtype=torch.bool)
     there[:, :frames] = True
     return Condition(
         there, torch.from_numpy(words), torch.from_numpy(seen), torch.from_numpy(slots),
-        torch.zeros(count, len(TARGETS)), torch.zeros(count, len(TARGETS), dtype=torch.bool),
+        torch.from_numpy(np.stack([values for values, _ in numbers])),
+        torch.from_numpy(np.stack([known for _, known in numbers])),
         torch.zeros(count, length, ego77.WIDTH), torch.zeros(count, length, len(PARTS), dtype=torch.bool),
     )  # fmt: skip

@@ -14,7 +14,7 @@ from motionrt_training.networks.actor import patched
 from motionrt_training.networks.transformer import MASKED
 
 KERNEL = (0.5, 0.228, 0.022)  # a Gaussian of 0.8 frames: what is faster than half a period of four frames goes
-WAY = 3  # the first columns: turn and steps over the ground
+WAY = 1  # the first column, the turn, which guidance makes larger than it was meant
 
 
 @dataclass(frozen=True)
