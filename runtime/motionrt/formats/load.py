@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
 
-from motionrt.errors import FormatError, InvalidInputError, MotionFileWarning, MotionRTError
+from motionrt.errors import InvalidInputError, MotionFileWarning
 from motionrt.formats.acclaim import read_amc
 from motionrt.formats.bvh import read_bvh, write_bvh
 from motionrt.formats.fbx import read_fbx
@@ -74,12 +74,7 @@ def load_rig(
         ".npy": lambda: read_npy(path, fps=fps),
         ".fbx": lambda: read_fbx(path, fps=fps, animation=animation),
     }
-    try:
-        clip = readers.get(suffix, lambda: read_glb(path, fps=fps, animation=animation, skin=skin))()
-    except MotionRTError:
-        raise
-    except Exception as error:  # whatever the bytes are, nothing else may come out of a reader
-        raise FormatError(path, f"cannot be read ({type(error).__name__}: {error})") from error
+    clip = readers.get(suffix, lambda: read_glb(path, fps=fps, animation=animation, skin=skin))()
     for note in clip.notes:
         warnings.warn(f"{path}: {note}", MotionFileWarning, stacklevel=3)
     return clip if up is None or suffix in {".npz", ".npy"} else replace(clip, up=up)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from motionrt.errors import FormatError, InvalidInputError, MotionRTError
+from motionrt.errors import InvalidInputError
 from motionrt.formats.bvh.read import parse_bvh
 from motionrt.formats.bvh.rig import build_rig
 from motionrt.formats.bvh.target import BvhTarget
@@ -23,6 +23,7 @@ from motionrt.motion.skeleton import FloatArray
 from motionrt.rigs.clip import RigClip
 from motionrt.rigs.retarget_out import to_rig
 from motionrt.rigs.target import Rig, RigMotion
+from motionrt.untrusted.files import as_path
 
 
 def load_target(path: str | Path, *, animation: int | str | None = None, skin: int | str | None = None) -> Rig:
@@ -39,7 +40,7 @@ def load_target(path: str | Path, *, animation: int | str | None = None, skin: i
         FormatError: the file cannot be read; the message says why.
         InvalidInputError: another suffix.
     """
-    path = Path(path)
+    path = as_path(path)
     require_file(path)
     readers: dict[str, Callable[[], Rig]] = {
         ".bvh": lambda: _from_bvh(path),
@@ -49,12 +50,7 @@ def load_target(path: str | Path, *, animation: int | str | None = None, skin: i
     suffix = path.suffix.lower()
     if suffix not in readers:
         raise InvalidInputError(f"{path}: a rig '{suffix}' cannot be a target; can be: {', '.join(RIG_SUFFIXES)}")
-    try:
-        return readers[suffix]()
-    except MotionRTError:
-        raise
-    except Exception as error:  # whatever the bytes are, nothing else may come out of a reader
-        raise FormatError(path, f"cannot be read ({type(error).__name__}: {error})") from error
+    return readers[suffix]()
 
 
 def retarget_to(

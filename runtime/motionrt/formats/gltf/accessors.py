@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import base64
-import binascii
 from pathlib import Path
 from typing import Any
 from urllib.parse import unquote
@@ -48,6 +47,13 @@ class GlbArrays:
         if accessor not in self._known:
             self._known[accessor] = self._read(accessor, what)
         return self._known[accessor]
+
+    def matrices(self, accessor: int, what: str) -> npt.NDArray[np.float64]:
+        """Accessor of matrices ``(N, 4, 4)``; FormatError for any other."""
+        values = self.read(accessor, what)
+        if values.ndim != 3:
+            raise self._error(f"{what} is not made of matrices: the file is damaged")
+        return values
 
     def count(self, accessor: int, what: str) -> int:
         """How many elements an accessor says it has."""
@@ -116,7 +122,7 @@ class GlbArrays:
         if isinstance(uri, str) and uri.startswith("data:") and ";base64," in uri[:100]:
             try:
                 return base64.b64decode(uri.split(",", 1)[1], validate=True)
-            except binascii.Error as error:
+            except ValueError as error:  # binascii.Error is one
                 raise self._error(f"the data of {what} is not base64: {error}") from error
         return self._beside(str(uri), what)
 

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import struct
+import zipfile
+import zlib
 from pathlib import Path
 from typing import Literal
 
@@ -18,6 +21,26 @@ Triangles = npt.NDArray[np.float64]
 UpAxis = Literal["y", "z"]
 MeshArrays = tuple[npt.ArrayLike, npt.ArrayLike]
 """Vertices ``(V, 3)`` and faces ``(T, 3)``, counter-clockwise seen from outside."""
+
+BROKEN = (
+    OSError,
+    ValueError,
+    TypeError,
+    LookupError,
+    AttributeError,
+    ArithmeticError,
+    AssertionError,
+    EOFError,
+    ImportError,  # a kind of mesh that needs a package more
+    MemoryError,
+    NameError,  # its reader of PLY leaves a variable unset
+    NotImplementedError,
+    RecursionError,
+    struct.error,
+    zipfile.BadZipFile,
+    zlib.error,
+)
+"""What the parsers of trimesh raise for a damaged file."""
 
 
 def read_triangles(source: str | Path | MeshArrays, *, up: UpAxis = "y", scale: float = 1.0) -> Triangles:
@@ -70,17 +93,17 @@ def _load(path: Path) -> tuple[Triangles, npt.NDArray[np.int64]]:
     require_scene_file(path)
     check_claims(path)
     trimesh = scene_package("trimesh", f"reading the mesh {path.name}")
+    kind = path.suffix.lower().lstrip(".")
     try:
         with path.open("rb") as file:
-            kind = path.suffix.lower().lstrip(".")
             mesh = trimesh.load(
                 file, file_type=kind, force="mesh", skip_materials=True, process=False, resolver=Beside(path)
             )
         vertices = np.asarray(mesh.vertices, dtype=np.float64).reshape(-1, 3)
         faces = np.asarray(mesh.faces, dtype=np.int64).reshape(-1, 3)
-    except SceneError:
+    except SceneError:  # a file that it names is refused
         raise
-    except Exception as error:  # a parser of a dozen formats may raise anything
+    except BROKEN as error:
         raise SceneError(f"{path} cannot be read as a mesh: {shorten(str(error), 200)}") from error
     if faces.size and not (faces.min() >= 0 and faces.max() < len(vertices)):
         raise SceneError(f"{path}: its faces name vertices outside 0..{len(vertices) - 1}")

@@ -84,10 +84,11 @@ def _samples(triangles: Triangles, spacing: float) -> Iterator[tuple[Points, Int
     turned = np.take_along_axis(triangles, ((first[:, None] + np.arange(3)) % 3)[..., None], axis=1)
     rows = np.ceil(edges.max(axis=1) / spacing).astype(np.int64) + 1
     across = np.ceil(edges.min(axis=1) / spacing).astype(np.int64) + 1
-    if (rows.astype(np.float64) * across).sum() > limits().samples:
+    stretched = max(limits().stretched_samples, 1000 * len(triangles))
+    if (rows.astype(np.float64) * across).sum() > min(stretched, limits().samples):
         raise SceneError(
             f"the mesh is too large for cells of {2 * spacing:g} m: give a larger cell=, check scale=, or: "
-            f"{how_to_raise('samples')}"
+            f"{how_to_raise('stretched_samples' if stretched < limits().samples else 'samples')}"
         )
     total = np.cumsum(rows * across)
     for part in np.split(np.arange(len(turned)), np.searchsorted(total, np.arange(_BATCH, total[-1], _BATCH))):
