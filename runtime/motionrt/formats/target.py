@@ -23,6 +23,7 @@ from motionrt.motion.skeleton import FloatArray
 from motionrt.rigs.clip import RigClip
 from motionrt.rigs.retarget_out import to_rig
 from motionrt.rigs.target import Rig, RigMotion
+from motionrt.untrusted.arguments import checked_choice
 from motionrt.untrusted.files import as_path
 
 
@@ -47,6 +48,8 @@ def load_target(path: str | Path, *, animation: int | str | None = None, skin: i
         ".fbx": lambda: _from_fbx(path, animation),
         **dict.fromkeys(GLTF_SUFFIXES, lambda: _from_glb(path, animation, skin)),
     }
+    checked_choice(animation, "animation")
+    checked_choice(skin, "skin")
     suffix = path.suffix.lower()
     if suffix not in readers:
         raise InvalidInputError(f"{path}: a rig '{suffix}' cannot be a target; can be: {', '.join(RIG_SUFFIXES)}")
@@ -57,7 +60,7 @@ def retarget_to(
     motion: Motion, rig: Rig | str | Path, *, mapping: Mapping[str, str] | None = None, root_motion: bool | str = False
 ) -> RigMotion:
     """``motion`` on a character, its file or what :func:`load_target` made of it, as :meth:`.Motion.retarget_to`."""
-    target = load_target(rig) if isinstance(rig, str | Path) else rig
+    target = rig if isinstance(rig, Rig) else load_target(rig)
     return to_rig(motion, target, mapping=mapping, root_motion=root_motion)
 
 

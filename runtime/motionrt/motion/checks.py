@@ -9,6 +9,7 @@ import numpy as np
 from motionrt.errors import InvalidInputError
 from motionrt.limits import SLOWEST_FPS, how_to_raise, limits
 from motionrt.motion.skeleton import FloatArray
+from motionrt.untrusted.arguments import real
 from motionrt.untrusted.words import shown
 
 NOT_A_ROTATION = 0.02
@@ -62,9 +63,7 @@ def check_root(root: FloatArray) -> None:
 
 def checked_fps(fps: object) -> float:
     """A frame rate within range; InvalidInputError otherwise."""
-    number = np.nan
-    if isinstance(fps, int | float | np.integer | np.floating) and not isinstance(fps, bool):
-        number = float(fps) if abs(float(min(max(fps, -1e300), 1e300))) < 1e300 else np.inf
+    number = real(fps)
     if not (np.isfinite(number) and number > 0):
         raise InvalidInputError(f"fps must be a positive number, not {shown(fps)}")
     if not SLOWEST_FPS <= number <= limits().fps:

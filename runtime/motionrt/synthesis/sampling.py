@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, field, replace
-from typing import Any
 
 import numpy as np
 
@@ -12,6 +10,8 @@ from motionrt.errors import InvalidInputError
 from motionrt.limits import limits
 from motionrt.models.text import FloatArray
 from motionrt.motion.features import sinc135
+from motionrt.untrusted.arguments import check_flags, checked_number, checked_whole
+from motionrt.untrusted.words import shown
 
 SAMPLERS = ("diffusion", "vae")
 DEFAULT_SAMPLER = "diffusion"
@@ -59,8 +59,9 @@ class Sampling:
         _set(self, "n", checked_whole(self.n, "n", 1, limits().motions))
         _set(self, "steps", checked_whole(self.steps, "steps", 1, MOST_STEPS))
         _set(self, "seed", fresh_seed() if self.seed is None else checked_whole(self.seed, "seed", 0))
-        if self.sampler not in SAMPLERS:
-            raise InvalidInputError(f"unknown sampler {self.sampler!r}; choose one of: {', '.join(SAMPLERS)}")
+        check_flags(foot_lock=self.foot_lock)
+        if not isinstance(self.sampler, str) or self.sampler not in SAMPLERS:
+            raise InvalidInputError(f"unknown sampler {shown(self.sampler)}; choose one of: {', '.join(SAMPLERS)}")
 
     def noise(self, sample: int, width: int) -> FloatArray:
         """``(width,)`` float32 for sample number ``sample``: the same however many samples there are."""
@@ -79,25 +80,3 @@ def fresh_seed() -> int:
 
 def _set(sampling: Sampling, name: str, value: float) -> None:
     object.__setattr__(sampling, name, value)
-
-
-def checked_number(value: Any, name: str, least: float, most: float = math.inf) -> float:
-    """``value`` as a finite number in a range; InvalidInputError otherwise, which says the name and the range."""
-    try:
-        number = math.nan if isinstance(value, bool | str) else float(value)
-    except (TypeError, ValueError):
-        number = math.nan
-    if not (math.isfinite(number) and least <= number <= most):
-        raise InvalidInputError(f"{name} must be a number {_range(least, most)}, not {value!r}")
-    return number
-
-
-def checked_whole(value: Any, name: str, least: int, most: float = math.inf) -> int:
-    """``value`` as a whole number in a range; InvalidInputError otherwise, which says the name and the range."""
-    if isinstance(value, bool) or not isinstance(value, int | np.integer) or not least <= value <= most:
-        raise InvalidInputError(f"{name} must be a whole number {_range(least, most)}, not {value!r}")
-    return int(value)
-
-
-def _range(least: float, most: float) -> str:
-    return f"from {least:g}" if most == math.inf else f"from {least:g} to {most:g}"

@@ -16,6 +16,8 @@ from motionrt.formats.tips import bone_tips
 from motionrt.motion.kinematics import fk
 from motionrt.motion.motion import Motion
 from motionrt.rigs.clip import RigClip
+from motionrt.untrusted.arguments import check_flags, check_kind, real
+from motionrt.untrusted.words import shown
 
 _POSITIONS = "Xposition Yposition Zposition"
 _MOVES = 1e-5  # share of the rig's largest offset
@@ -41,8 +43,10 @@ def write_bvh(motion: Motion, path: str | Path, *, scale: float = 100.0, t_pose:
     Raises:
         InvalidInputError: ``scale`` is not positive, or the file cannot be written.
     """
-    if not (np.isfinite(scale) and scale > 0):
-        raise InvalidInputError(f"scale must be a positive number, not {scale}")
+    check_kind(motion, Motion, "motion", "a Motion")
+    check_flags(t_pose=t_pose)
+    if not 0 < real(scale) < np.inf:
+        raise InvalidInputError(f"scale must be a positive number, not {shown(scale)}")
     motion = _with_t_pose(motion) if t_pose else motion
     skeleton = motion.skeleton
     translations = np.repeat(skeleton.offsets[None], motion.frames, axis=0)

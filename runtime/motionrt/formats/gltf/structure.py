@@ -21,7 +21,7 @@ def _list_of(check: Check) -> Check:
 
 
 def _object(needed: dict[str, Check], **known: Check) -> Check:
-    """An object that has all of ``needed``; what it has of ``known`` is of those kinds, other members may be anything."""
+    """An object that has all of ``needed``; its members are of the kinds that are given, others may be anything."""
 
     def check(value: Any) -> bool:
         if not isinstance(value, dict) or not needed.keys() <= value.keys():
@@ -47,7 +47,7 @@ _PARTS: dict[str, Check] = {
 
 
 def misshapen(document: dict[str, Any]) -> str | None:
-    """The place of the first part that is of another kind than glTF has there, as in ``animations[2]``; None if none is.
+    """The place of the first part that is of another kind than glTF has there, as in ``animations[2]``, or None.
 
     Only what motionrt reads is looked at.
     """

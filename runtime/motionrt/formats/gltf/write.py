@@ -16,6 +16,8 @@ from motionrt.formats.tips import bone_tips
 from motionrt.motion.motion import Motion
 from motionrt.motion.rotations import matrix_to_quaternion
 from motionrt.rigs.clip import RigClip
+from motionrt.untrusted.arguments import check_kind
+from motionrt.untrusted.files import as_path
 
 GENERATOR = "motionrt"
 _COLOUR = [0.32, 0.52, 0.78, 1.0]
@@ -34,6 +36,7 @@ def write_glb(motion: Motion, path: str | Path) -> Path:
     Raises:
         InvalidInputError: the file cannot be written.
     """
+    check_kind(motion, Motion, "motion", "a Motion")
     return write_rig_glb(standing_clip(motion), path)
 
 
@@ -51,7 +54,7 @@ def standing_clip(motion: Motion) -> RigClip:
 
 def write_rig_glb(clip: RigClip, path: str | Path) -> Path:
     """Write any clip in metres and Y up as :func:`write_glb` does; its rest pose becomes the bind pose."""
-    path = Path(path)
+    path = as_path(path)
     document: Json = {
         "asset": {"version": "2.0", "generator": GENERATOR},
         "buffers": [{"byteLength": 0}],

@@ -5,6 +5,7 @@ from __future__ import annotations
 import struct
 import zipfile
 import zlib
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Literal
 
@@ -15,7 +16,9 @@ from motionrt.errors import InvalidInputError, SceneError
 from motionrt.limits import how_to_raise, limits
 from motionrt.locomotion.scene.mesh_files import Beside, check_claims
 from motionrt.locomotion.scene.optional import require_scene_file, scene_package
-from motionrt.untrusted.words import shorten
+from motionrt.untrusted.arguments import checked_array, checked_up, real
+from motionrt.untrusted.files import as_path
+from motionrt.untrusted.words import shorten, shown
 
 Triangles = npt.NDArray[np.float64]
 UpAxis = Literal["y", "z"]
@@ -56,11 +59,10 @@ def read_triangles(source: str | Path | MeshArrays, *, up: UpAxis = "y", scale: 
         SceneError: the file cannot be read or holds no triangles, or trimesh is not installed.
         InvalidInputError: wrong shapes, numbers, ``up`` or ``scale``.
     """
-    if up not in {"y", "z"}:
-        raise InvalidInputError(f"up must be 'y' or 'z', not '{up}'")
-    if not (np.isfinite(scale) and scale > 0):
-        raise InvalidInputError(f"scale must be a positive number of metres per unit, not {scale}")
-    vertices, faces = _load(Path(source)) if isinstance(source, str | Path) else _checked(*source)
+    checked_up(up)
+    if not 0 < real(scale) < np.inf:
+        raise InvalidInputError(f"scale must be a positive number of metres per unit, not {shown(scale)}")
+    vertices, faces = _checked(source) if isinstance(source, list | tuple) else _load(as_path(source))
     if not len(faces):
         raise SceneError(f"{_name(source)} holds no triangles")
     if not np.isfinite(vertices).all():
@@ -79,8 +81,11 @@ def _name(source: str | Path | MeshArrays) -> str:
     return str(source) if isinstance(source, str | Path) else "the mesh"
 
 
-def _checked(vertices: npt.ArrayLike, faces: npt.ArrayLike) -> tuple[Triangles, npt.NDArray[np.int64]]:
-    points, indices = np.asarray(vertices, dtype=np.float64), np.asarray(faces, dtype=np.int64)
+def _checked(mesh: Sequence[npt.ArrayLike]) -> tuple[Triangles, npt.NDArray[np.int64]]:
+    if len(mesh) != 2:
+        raise InvalidInputError(f"a mesh is a file, or vertices (V, 3) and faces (T, 3), not {shown(mesh)}")
+    points = checked_array(mesh[0], "vertices", "numbers (V, 3)")
+    indices = checked_array(mesh[1], "faces", "whole numbers (T, 3)").astype(np.int64)
     if points.ndim != 2 or points.shape[1] != 3 or indices.ndim != 2 or indices.shape[1] != 3:
         raise InvalidInputError(f"need vertices (V, 3) and faces (T, 3), not {points.shape} and {indices.shape}")
     if indices.size and (indices.min() < 0 or indices.max() >= len(points)):

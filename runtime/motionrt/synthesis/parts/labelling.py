@@ -10,6 +10,7 @@ from motionrt.motion.body_parts import checked_parts
 from motionrt.synthesis.parts.endpoint import Complete, Endpoint
 from motionrt.synthesis.parts.prompting import PromptLabeller
 from motionrt.synthesis.parts.rules import RulesLabeller
+from motionrt.untrusted.arguments import check_kind
 
 Labeller = Callable[[str], frozenset[str]]
 LABELLERS = ("rules", "llm")
@@ -35,10 +36,11 @@ def body_parts(
     """
     if not isinstance(text, str) or not text.strip():
         raise InvalidInputError("the action text is empty; say what somebody does, as in 'wave the right hand'")
-    if labeller != "llm" and (complete is not None or endpoint is not None):
+    if not (isinstance(labeller, str) and labeller == "llm") and (complete is not None or endpoint is not None):
         raise InvalidInputError("complete and endpoint are for labeller='llm'; say so, or leave them out")
     if callable(labeller):
         return _checked(labeller(text))
+    check_kind(labeller, str, "labeller", "a name or a function")
     if labeller == "rules":
         return _rules()(text)
     if labeller == "llm":
