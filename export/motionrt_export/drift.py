@@ -56,7 +56,9 @@ class WalkDrift:
     def _steps_apart(self, found: Reference, expected: Reference, history: Array, walked: Walked) -> dict[str, float]:
         """Distances of joints after single steps from the same frames, and the mean that their pelvises are apart."""
         asked = list(self._walks.asked(history, walked, EVERY))
-        ours, theirs = (joints(np.concatenate([graph(feeds)["next"] for feeds in asked])) for graph in (found, expected))
+        ours, theirs = (
+            joints(np.concatenate([graph(feeds)["next"] for feeds in asked])) for graph in (found, expected)
+        )
         pull = (ours - theirs)[:, 0, [0, 2]].mean(axis=0)  # of the pelvis over the ground, seen from the goal
         return {
             "step_cm": 100.0 * float(np.sqrt(((ours - theirs) ** 2).sum(axis=-1).mean())),

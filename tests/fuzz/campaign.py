@@ -1,8 +1,8 @@
 """The long run: ``python tests/fuzz/campaign.py --cases 100000`` (hours on one core; ``--minutes`` ends it earlier).
 
 Prints counts by outcome; writes every input that is not read or refused cheaply to ``--found``, and exits with 1 then.
-What is done stands in ``FOUND/done-SEED.json``: the same command goes on from there. A case depends on its number and the
-seed alone.
+What is done stands in ``FOUND/done-SEED.json``: the same command goes on from there. A case depends on its number and
+the seed alone.
 """
 
 from __future__ import annotations

@@ -2,8 +2,8 @@
 
     python tests/fuzz/interrupts.py [CALL ...]
 
-A process makes the call, this one sends SIGINT at several moments of it. Prints the longest wait by call, and exits with
-1 if one is above 0.2 s, a thread is left, or a signal handler has changed.
+A process makes the call, this one sends SIGINT at several moments of it. Prints the longest wait by call, and exits
+with 1 if one is above 0.2 s, a thread is left, or a signal handler has changed.
 """
 
 from __future__ import annotations
@@ -114,7 +114,9 @@ def child(name: str, folder: Path) -> None:
 
 def names(folder: Path) -> list[str]:
     """All calls."""
-    done = subprocess.run([sys.executable, __file__, "--names", str(folder)], capture_output=True, text=True, check=True)
+    done = subprocess.run(
+        [sys.executable, __file__, "--names", str(folder)], capture_output=True, text=True, check=True
+    )
     return list(json.loads(done.stdout))
 
 
@@ -159,7 +161,9 @@ def main() -> int:
             seconds, wrong = waits(name, folder)
             longest = max(seconds, default=float("nan"))
             bad |= not longest <= LIMIT_S or bool(wrong)
-            print(f"{name:30s} {longest:6.3f} s  {' '.join(f'{wait:.3f}' for wait in seconds)}  {wrong or ''}", flush=True)
+            print(
+                f"{name:30s} {longest:6.3f} s  {' '.join(f'{wait:.3f}' for wait in seconds)}  {wrong or ''}", flush=True
+            )
     return int(bad)
 
 
