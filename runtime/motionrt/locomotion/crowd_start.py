@@ -35,5 +35,5 @@ def crowd(models: CharacterModels, starts: int | Sequence[Goal | Sequence[float]
 
 
 def _abreast(count: int) -> list[Sequence[float]]:
-    count = checked_whole(count, "starts", 1, limits().motions)
+    count = checked_whole(count, "starts", 0, limits().motions)
     return [(ABREAST * (i - (count - 1) / 2), 0.0, 0.0) for i in range(count)]

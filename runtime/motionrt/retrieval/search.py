@@ -16,6 +16,7 @@ from motionrt.models.engine import Providers, checked_providers
 from motionrt.motion.skeleton import FloatArray
 from motionrt.retrieval.scores import IntArray, scores, top
 from motionrt.untrusted.arguments import checked_whole
+from motionrt.untrusted.words import shown
 
 if TYPE_CHECKING:
     from motionrt.retrieval.coded_scan import CodedScan
@@ -146,4 +147,7 @@ def nearest_per_group(
 
 def checked_k(k: int) -> int:
     """``k`` as a whole number of at least 1; InvalidInputError otherwise."""
-    return checked_whole(k, "k", 1)
+    value = checked_whole(k, "k")
+    if value < 1:
+        raise InvalidInputError(f"k must be at least 1, not {shown(k)}")
+    return value

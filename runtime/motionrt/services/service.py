@@ -49,7 +49,9 @@ class Service:
             checked_whole(threads, "threads", 1)
         check_kind(variant, str | None, "variant", "a name, as in 'fp32'")
         check_kind(text_tower, str | None, "text_tower", "'small' or 'full'")
-        self._models = None if models is None else as_path(models)
+        if models is not None:
+            as_path(models)
+        self._models = models
         self._threads = threads
         self._session_options = session_options
         self._variant = variant
