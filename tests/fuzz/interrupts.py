@@ -29,7 +29,11 @@ MOMENTS = (0.15, 0.4, 0.75, 1.2)
 """Seconds after the start of a call."""
 
 
-def calls(folder: Path) -> dict[str, Callable[[], object]]:
+LONG = {"embed_motion", "resample", "mirror", "positions", "save bvh", "save glb"}
+"""Calls with a motion of a million frames."""
+
+
+def calls(folder: Path, wanted: str = "") -> dict[str, Callable[[], object]]:
     """Calls of seconds to minutes, by name."""
     from motions import walking
 
@@ -37,7 +41,7 @@ def calls(folder: Path) -> dict[str, Callable[[], object]]:
     from motionrt.locomotion import Path as Route
 
     runtime = motionrt.Runtime(threads=1)
-    long, minutes = walking(1_000_000, fps=30.0), walking(20_000, fps=30.0)
+    long, minutes = walking(1_000_000 if wanted in LONG else 10, fps=30.0), walking(20_000, fps=30.0)
     far = np.array([[0, 0], [0, 2000]], np.float32)
     rng = np.random.default_rng(0)
     walls = [[(x, z), (x + 2, z), (x + 2, z + 2), (x, z + 2)] for x, z in rng.uniform(-50, 48, (200, 2))]
@@ -97,7 +101,7 @@ def prepare(folder: Path) -> None:
 
 def child(name: str, folder: Path) -> None:
     """Make one call once for every line of standard input; say when it began and when it was over."""
-    call = calls(folder)[name]
+    call = calls(folder, name)[name]
     before = [signal.getsignal(number) for number in signal.valid_signals()]
     for _ in sys.stdin:
         outcome = "done"
