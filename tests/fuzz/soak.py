@@ -78,8 +78,8 @@ def memory_mb() -> float:
 
 
 def growth(verb: Verb, calls: int, until: float | None) -> tuple[int, float]:
-    """How many calls were made, and by how many MiB the process grew after the first hundredth of them."""
-    warm = max(50, calls // 100)
+    """How many calls were made, and by how many MiB the process grew after some first ones."""
+    warm = max(50, min(calls // 100, 200))
     for _ in range(warm):
         verb()
     gc.collect()

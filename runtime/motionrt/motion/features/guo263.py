@@ -25,6 +25,8 @@ gives the former.
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 
 from motionrt.motion.batches import by_batches
@@ -113,7 +115,7 @@ def _encoded_again(joints: Array) -> FloatArray:
 
 def _features(pointing: Array, root: Array, bone_lengths: Array = skeleton.BONE_LENGTHS) -> FloatArray:
     """Features of bones ``(F, 21, 3)`` that point so, on a root's path ``(F, 3)``, placed as he does."""
-    longer = by_batches(lambda *rows: skeleton.with_lengths(*rows, bone_lengths), pointing, root)
+    longer = by_batches(partial(skeleton.with_lengths, bone_lengths=bone_lengths), pointing, root)
     joints = skeleton.placed(longer)
     yaw = skeleton.headings(joints)
     to_heading = axis_rotation("Y", -yaw)
