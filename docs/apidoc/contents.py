@@ -33,7 +33,7 @@ PAGES: dict[str, Page] = {
             "motionrt.text:agreement", "motionrt.text:Agreement",
         ),
     ),
-    "making": (
+    "generation": (
         "Generation and composition",
         "The verbs are on [Runtime](runtime.md); these are what they take.",
         (
@@ -41,7 +41,7 @@ PAGES: dict[str, Page] = {
             "motionrt.synthesis.parts:PromptLabeller", "motionrt.synthesis.parts:Endpoint",
         ),
     ),
-    "moving": (
+    "locomotion": (
         "Walking and acting",
         "Scenes, paths, actions, scripts, and what comes back.",
         (

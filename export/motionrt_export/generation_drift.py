@@ -11,7 +11,7 @@ from motionrt.metrics.locomotion import foot_skate, keypoint_error
 from motionrt.motion.features import ego77, sinc135
 from motionrt.synthesis.diffusion import ddim
 from motionrt.synthesis.motion_diffusion import solve
-from motionrt.synthesis.sampling import GUIDANCE, MOTION_STEPS, POSE_GUIDANCE, STEPS, WAY_GUIDANCE
+from motionrt.synthesis.sampling import GUIDANCE, MOTION_STEPS, POSE_GUIDANCE, STEPS, TURN_GUIDANCE
 from motionrt_export.drift import LEAST_CM, ratio
 from motionrt_export.examples import Array, Feeds, Motions
 from motionrt_export.measures import Figures
@@ -69,7 +69,7 @@ class MotionDenoiserDrift:
 
     def _told(self, seed: int) -> Feeds:
         feeds = self._examples(1, MOTION_FRAMES, seed)
-        guidance = np.array([[WAY_GUIDANCE, POSE_GUIDANCE]], np.float32)
+        guidance = np.array([[TURN_GUIDANCE, POSE_GUIDANCE]], np.float32)
         nothing = {"holding": np.zeros_like(feeds["holding"]), "known": np.zeros_like(feeds["known"])}
         return {**feeds, **nothing, "guidance": guidance, "noisy": feeds["noisy"] / (1 + feeds["level"])}
 

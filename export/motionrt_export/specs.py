@@ -209,7 +209,7 @@ MOTION_DENOISER = GraphSpec(
         TensorSpec(
             "holding", "bool", ("batch", "frames", 6), "1", "which of the six body parts of the frames are held"
         ),
-        TensorSpec("guidance", "float32", ("batch", 2), "1", "weights of the condition, for the way and for the rest"),
+        TensorSpec("guidance", "float32", ("batch", 2), "1", "weights of the condition, for the turn and for the rest"),
     ),
     (
         TensorSpec("clean", "float32", ("batch", "frames", 77), "1", "estimate of the motion, normalised"),

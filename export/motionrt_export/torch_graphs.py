@@ -12,7 +12,7 @@ from motionrt.bench.timing import Call
 from motionrt.models import find_manifest, load_manifest
 from motionrt_export import references, specs
 from motionrt_export.references import Reference
-from motionrt_export.torch_moves import released
+from motionrt_export.torch_locomotion import released
 from motionrt_training.networks.latent_denoiser import LatentDenoiser
 from motionrt_training.networks.minilm import MiniLM
 from motionrt_training.networks.motion_denoiser import MotionDenoiser

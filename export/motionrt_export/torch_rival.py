@@ -18,15 +18,15 @@ import torch.nn.functional as F
 from tokenizers import Tokenizer
 from torch import Tensor
 
-from motionrt.bench.finds import CLIPS, FULL_TEXT, TEXT, answer_case, motion_case, search_case
 from motionrt.bench.first_answer import peak_mb
 from motionrt.bench.rivals import Rival
+from motionrt.bench.search import CLIPS, FULL_TEXT, TEXT, answer_case, motion_case, search_case
 from motionrt.bench.timing import Call
 from motionrt.bench.workload import TEXTS, TOP, Workload
 from motionrt.models import find_manifest
+from motionrt_export.torch_generation import make_cases
 from motionrt_export.torch_graphs import graph_cases
-from motionrt_export.torch_makes import make_cases
-from motionrt_export.torch_moves import move_cases, released
+from motionrt_export.torch_locomotion import move_cases, released
 from motionrt_training.networks.minilm import MAX_TOKENS, MiniLM, package_folder
 from motionrt_training.networks.tmr import TMR
 from motionrt_training.networks.transformer import set_fused_attention

@@ -21,7 +21,7 @@ from motionrt_export.examples import Array
 from motionrt_export.references import Reference
 from motionrt_export.sources import Sources
 from motionrt_export.specs import LATENT_DENOISER
-from motionrt_export.torch_makes import TorchSentences
+from motionrt_export.torch_generation import TorchSentences
 
 
 class TorchRuntime(Runtime):

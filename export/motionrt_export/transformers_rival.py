@@ -16,7 +16,7 @@ from torch import Tensor
 from motionrt.bench.rivals import Rival
 from motionrt.bench.workload import Workload
 from motionrt_export import transformers_text
-from motionrt_export.torch_moves import released
+from motionrt_export.torch_locomotion import released
 from motionrt_export.torch_rival import released_folder, text_cases
 from motionrt_export.transformers_text import TransformersSentences
 from motionrt_training.networks.minilm import package_folder

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -53,6 +53,14 @@ class Walks:
             goals.append(routes.goals(crowd.positions))
             frames.append(crowd.step(goals[-1], speeds))
         return Walked(np.stack(frames, axis=1), np.stack(goals, axis=1), speeds, paths)
+
+    @staticmethod
+    def asked(history: Array, walked: Walked, every: int) -> Iterator[Feeds]:
+        """What a network was asked at every ``every``-th step of a walk, all characters together."""
+        frames = np.concatenate([history, walked.frames], axis=1)
+        for step in range(0, walked.frames.shape[1], every):
+            seen = frames_to_goal(frames[:, step : step + HISTORY], walked.goals[:, step])
+            yield {"frames": seen.astype(np.float32), "speed": walked.speeds.astype(np.float32)}
 
     @cached_property
     def walked(self) -> Walked:

@@ -17,8 +17,9 @@ from motionrt.motion import Motion
 from motionrt.motion.attributes import measure
 from motionrt.motion.events import events
 from motionrt.runtime import Runtime
-from motionrt.synthesis.sampling import SECONDS, checked_number, checked_whole
+from motionrt.synthesis.sampling import SECONDS
 from motionrt.text import agreement, parse_query
+from motionrt.untrusted.arguments import checked_number, checked_whole
 
 ACCEPTED = 0.75
 """Agreement of a clip's measured attributes with its prompt from which on it is taken."""

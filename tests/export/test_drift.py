@@ -59,6 +59,15 @@ def test_a_walk_that_is_pushed_aside_is_beyond_the_tolerance(sources: TinySource
     assert any("joints_cm_after_1_s" in words for words in broken)
 
 
+def test_a_slight_pull_that_no_walk_would_show_is_beyond_the_tolerance(sources: TinySources) -> None:
+    reference = walk_reference(sources.walknet.model)
+    figures = WalkDrift(sources.walks, steps=35, characters=2)(pushed(reference, 0.0003), reference)["walk"]
+    assert figures["pull_cm_per_s"] == pytest.approx(0.9, rel=1e-3)  # 0.3 mm a frame at 30 fps
+    assert figures["step_cm"] == pytest.approx(0.03, rel=1e-3)
+    limits = tolerance("walknet", "int8")["walk"]
+    assert [words for words in beyond({"walk": figures}, {"walk": limits}) if "pull_cm_per_s" in words]
+
+
 def test_only_a_difference_beyond_two_standard_errors_counts_as_one() -> None:
     random = np.random.default_rng(0)
     theirs = random.gamma(4.0, 0.012, (2000, 32))  # metres from the path, 0.048 on average

@@ -14,17 +14,17 @@ from tiny_nets import tiny_latent_denoiser, tiny_temos  # noqa: E402
 
 from motionrt.bench.cases import chosen  # noqa: E402
 from motionrt.bench.files import GALLERY, LOAD, SAVE  # noqa: E402
-from motionrt.bench.finds import CLIPS, TEXT, answer_case, motion_case, search_case  # noqa: E402
+from motionrt.bench.generation import BODY_PARTS, COMPOSE, DECODE, FRAMES, generate_case  # noqa: E402
 from motionrt.bench.graphs import graph_case, graph_feeds  # noqa: E402
-from motionrt.bench.makes import BODY_PARTS, COMPOSE, DECODE, FRAMES, generate_case  # noqa: E402
-from motionrt.bench.moves import CROWDS, POSE, TRANSITION, walk_case  # noqa: E402
+from motionrt.bench.locomotion import CROWDS, POSE, TRANSITION, walk_case  # noqa: E402
+from motionrt.bench.search import CLIPS, TEXT, answer_case, motion_case, search_case  # noqa: E402
 from motionrt.bench.setting import Setting  # noqa: E402
 from motionrt.bench.workload import Workload  # noqa: E402
 from motionrt.models import find_manifest, load_manifest  # noqa: E402
 from motionrt.synthesis.sampling import SAMPLERS, Sampling  # noqa: E402
+from motionrt_export.torch_generation import TorchGenerator  # noqa: E402
 from motionrt_export.torch_graphs import graph_cases  # noqa: E402
-from motionrt_export.torch_makes import TorchGenerator  # noqa: E402
-from motionrt_export.torch_moves import torch_infill, torch_prior, torch_walk  # noqa: E402
+from motionrt_export.torch_locomotion import torch_infill, torch_prior, torch_walk  # noqa: E402
 from motionrt_export.torch_rival import open_torch  # noqa: E402
 from motionrt_training.checkpoint import NETWORKS, load_release, save_release  # noqa: E402
 from motionrt_training.networks.latent_denoiser import draw_latents  # noqa: E402

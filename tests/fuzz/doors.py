@@ -21,6 +21,15 @@ def motion(path: Path) -> object:
     return loaded
 
 
+def acclaim(path: Path) -> object:
+    """Either file of a pair of ASF and AMC, by its own joints."""
+    from motionrt.formats import load_rig
+
+    clip = load_rig(path.with_suffix(".amc"))
+    assert np.isfinite(clip.global_pose()[0]).all()
+    return clip
+
+
 def rig(path: Path) -> object:
     """A motion file as a character of one's own."""
     from motionrt.formats import load_target
@@ -117,7 +126,7 @@ def text(path: Path) -> object:
 
 DOORS: dict[str, Door] = {
     door.__name__: door
-    for door in (motion, rig, scene, cloud, script, path_csv, manifest, mapping, captions, gallery, text)
+    for door in (motion, acclaim, rig, scene, cloud, script, path_csv, manifest, mapping, captions, gallery, text)
 }
 
 

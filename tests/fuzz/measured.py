@@ -2,18 +2,25 @@
 
 from __future__ import annotations
 
+import gc
+import io
 import os
 import pickle
 import resource
 import select
 import signal
 import time
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from doors import DOORS
 
 CPU_S, MEMORY_MB, WALL_S = 2.0, 512, 120.0
+BATCH, GREW_MB = 100, 64
+
+Prepared = Callable[[int], tuple[str, Path]]
+"""Writes the file of a case; the door it is for, and where it is."""
 
 
 @dataclass(frozen=True)
@@ -55,8 +62,27 @@ def measured(door: str, path: Path) -> Outcome:
     cpu = used.ru_utime + used.ru_stime
     if not said:
         return Outcome("killed", f"signal {os.WTERMSIG(status)}" if os.WIFSIGNALED(status) else "exit", cpu_s=cpu)
-    kind, error, message, memory, cpu = pickle.loads(said)
-    return Outcome(kind, error, message, cpu, memory)
+    outcome: Outcome = pickle.loads(said)
+    return outcome
+
+
+def measured_all(cases: Sequence[int], prepared: Prepared) -> Iterator[tuple[int, Outcome]]:
+    """Cases and their outcomes, in order.
+
+    A process takes one case after the other until one is not good or makes it grow. A case that is not good, or whose
+    process died, is measured once more in a process of its own.
+    """
+    left = list(cases)
+    while left:
+        outcomes = _batch(left[:BATCH], prepared)
+        if outcomes and not outcomes[-1].good:
+            del outcomes[-1]
+        alone = not outcomes or (len(outcomes) < len(left[:BATCH]) and outcomes[-1].memory_mb <= GREW_MB)
+        yield from zip(left, outcomes, strict=False)
+        left = left[len(outcomes) :]
+        if alone:
+            yield left[0], measured(*prepared(left[0]))
+            del left[0]
 
 
 def warm() -> None:
@@ -81,20 +107,50 @@ def warm() -> None:
     try:
         import PIL.Image
         import trimesh
+        import ufbx  # noqa: F401
 
         PIL.Image.init()
         assert trimesh.available_formats()
     except ImportError:
         pass
+    gc.freeze()  # a collection in a child would copy all of its pages
 
 
 def _child(door: str, path: Path, pipe: int) -> None:
+    os.write(pipe, pickle.dumps(_called(door, path)))
+    os._exit(0)
+
+
+def _batch(cases: list[int], prepared: Prepared) -> list[Outcome]:
+    """Outcomes of the first cases: all of them unless one is not good, grows the process or ends it."""
+    ours, theirs = os.pipe()
+    pid = os.fork()
+    if pid == 0:
+        os.close(ours)
+        for case in cases:
+            outcome = _called(*prepared(case))
+            os.write(theirs, pickle.dumps(outcome))
+            if not outcome.good or outcome.memory_mb > GREW_MB:
+                break
+        os._exit(0)
+    os.close(theirs)
+    said = io.BytesIO(_heard(ours, pid))
+    os.close(ours)
+    os.waitpid(pid, 0)
+    outcomes = []
+    while said.tell() < len(said.getbuffer()):
+        outcomes.append(pickle.load(said))
+    return outcomes
+
+
+def _called(door: str, path: Path) -> Outcome:
+    """What a door makes of a file, in this process, which is limited from now on."""
     from motionrt.errors import MotionRTError
 
-    limit = int(CPU_S) * 5
-    resource.setrlimit(resource.RLIMIT_CPU, (limit, limit))
+    limit = int(time.process_time() + CPU_S * 5)
+    resource.setrlimit(resource.RLIMIT_CPU, (limit, resource.RLIM_INFINITY))
     ceiling = _virtual() + 4 * MEMORY_MB * 2**20
-    resource.setrlimit(resource.RLIMIT_AS, (ceiling, ceiling))
+    resource.setrlimit(resource.RLIMIT_AS, (ceiling, resource.RLIM_INFINITY))
     before, began = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss, time.process_time()
     kind, error, message = "loaded", "", ""
     try:
@@ -104,19 +160,20 @@ def _child(door: str, path: Path, pipe: int) -> None:
     except BaseException as other:  # noqa: BLE001  # it is told
         kind, error, message = "untyped", type(other).__name__, str(other)[:300]
     memory = (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) / 1024
-    os.write(pipe, pickle.dumps((kind, error, message[:50_000], memory, time.process_time() - began)))
-    os._exit(0)
+    return Outcome(kind, error, message[:50_000], time.process_time() - began, memory)
 
 
 def _heard(pipe: int, pid: int) -> bytes:
-    ready, _, _ = select.select([pipe], [], [], WALL_S)
-    if not ready:
-        os.kill(pid, signal.SIGKILL)
-        return b""
     parts = []
-    while block := os.read(pipe, 1 << 16):
+    while True:
+        ready, _, _ = select.select([pipe], [], [], WALL_S)
+        if not ready:
+            os.kill(pid, signal.SIGKILL)
+            return b"".join(parts)
+        block = os.read(pipe, 1 << 16)
+        if not block:
+            return b"".join(parts)
         parts.append(block)
-    return b"".join(parts)
 
 
 def _virtual() -> int:

@@ -25,12 +25,15 @@ sys.path[:0] = [str(Path(__file__).parent), str(Path(__file__).parents[1] / "hel
 from fake_embedder import FakeEmbedder  # noqa: E402
 from motions import walking  # noqa: E402
 
-from motionrt.formats import load_motion  # noqa: E402
+from motionrt.formats import load_motion, load_target  # noqa: E402
+from motionrt.locomotion import Goal, canonicalise  # noqa: E402
 from motionrt.locomotion import Path as Route  # noqa: E402
 from motionrt.locomotion.scene import Scene  # noqa: E402
 from motionrt.locomotion.words.instruction import parse_instruction  # noqa: E402
-from motionrt.retrieval import Gallery  # noqa: E402
+from motionrt.retrieval import Gallery, motion_features  # noqa: E402
+from motionrt.synthesis.composing import Layer, compose  # noqa: E402
 from motionrt.synthesis.parts import body_parts  # noqa: E402
+from motionrt.text import parse_query  # noqa: E402
 
 GROWTH_MB = 2.0
 Verb = Callable[[], bytes]
@@ -43,7 +46,20 @@ def verbs(folder: Path) -> dict[str, Verb]:
     gallery = Gallery.from_motions([clip, walking(20, speed=2.0)], ["a", "b"], FakeEmbedder())
     query = gallery.embeddings[0].copy()
     scene = Scene.from_polygons([[(-2, -2), (2, -2), (2, 2), (-2, 2)]], [[(0, 0), (1, 0), (1, 1), (0, 1)]], cell=0.2)
+    saved, rig = gallery.save(folder / "gallery"), load_target(clip.save(folder / "rig.bvh"))
+    standing = [Layer(clip, ["left arm"]), Layer(clip.mirror(), ["torso"])]
+    goal = Goal(1.0, 2.0, 0.5)
     return {
+        "positions": lambda: clip[1:].positions().tobytes(),
+        "canonical": lambda: clip.canonical().root.tobytes(),
+        "grounded": lambda: clip[1:].grounded().root.tobytes(),
+        "features": lambda: motion_features(clip).tobytes(),
+        "goal frame": lambda: canonicalise(clip, goal).root.tobytes(),
+        "compose": lambda: compose(standing).rotations.tobytes(),
+        "retarget": lambda: clip[:2].retarget_to(rig).clip.rotations.tobytes(),
+        "clip": lambda: saved.motion("a").root.tobytes(),
+        "query": lambda: repr(parse_query("turns left twice, quickly")).encode(),
+        "clearance": lambda: scene.clearance([(0, 1), (1, 1)]).tobytes(),
         "load": lambda: load_motion(file).root.tobytes(),
         "resample": lambda: clip.resample(30).root.tobytes(),
         "mirror": lambda: clip.mirror().rotations.tobytes(),
@@ -62,8 +78,8 @@ def memory_mb() -> float:
 
 
 def growth(verb: Verb, calls: int, until: float | None) -> tuple[int, float]:
-    """How many calls were made, and by how many MiB the process grew after the first hundredth of them."""
-    warm = max(50, calls // 100)
+    """How many calls were made, and by how many MiB the process grew after some first ones."""
+    warm = max(50, min(calls // 100, 200))
     for _ in range(warm):
         verb()
     gc.collect()

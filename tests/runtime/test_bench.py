@@ -13,8 +13,8 @@ from fake_embedder import FakeEmbedder
 
 from motionrt.bench import processes, report, rivals, starts, timing, worker
 from motionrt.bench.cases import BENCHMARKS, chosen
-from motionrt.bench.finds import CLIPS, TEXT, answer_case, motion_case, search_case
 from motionrt.bench.first_answer import peak_mb
+from motionrt.bench.search import CLIPS, TEXT, answer_case, motion_case, search_case
 from motionrt.bench.setting import Setting
 from motionrt.bench.timing import Contest, Timing, Turns, timed
 from motionrt.bench.workload import Workload

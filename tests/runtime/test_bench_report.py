@@ -16,9 +16,9 @@ from tiny_models import TINY, TINY_GENERATORS, copy_tiny
 
 from motionrt.bench import footprint, markdown, plot, tables, worker
 from motionrt.bench.cases import BENCHMARKS
-from motionrt.bench.finds import TEXT, answer_case, motion_case, search_case
 from motionrt.bench.graphs import called_with, graph_feeds
-from motionrt.bench.moves import walk_case
+from motionrt.bench.locomotion import walk_case
+from motionrt.bench.search import TEXT, answer_case, motion_case, search_case
 from motionrt.bench.timing import Turns
 from motionrt.cli import main
 from motionrt.errors import InvalidInputError, MissingDependencyError

@@ -14,7 +14,7 @@ import pytest
 from motions import random_motion, standing, walking
 
 from motionrt import Runtime, load_motion
-from motionrt.bench.finds import motion_case
+from motionrt.bench.search import motion_case
 from motionrt.formats import save_motion
 from motionrt.retrieval.head import sealed
 

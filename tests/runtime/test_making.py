@@ -252,7 +252,7 @@ def test_parts_that_are_no_list_are_refused(runtime: Runtime, wrong: dict[str, A
 
 
 def test_a_number_is_no_text(runtime: Runtime) -> None:
-    with pytest.raises(InvalidInputError, match="at least one text"):
+    with pytest.raises(InvalidInputError, match="list of texts"):
         runtime.generate(5)  # type: ignore[call-overload]
 
 

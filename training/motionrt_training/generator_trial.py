@@ -15,7 +15,7 @@ from motionrt.motion.body_parts import PARTS
 from motionrt.motion.features import ego77
 from motionrt.motion.skeleton import SMPL24
 from motionrt.synthesis.motion_diffusion import solve
-from motionrt.synthesis.sampling import MOTION_STEPS, POSE_GUIDANCE, WAY_GUIDANCE
+from motionrt.synthesis.sampling import MOTION_STEPS, POSE_GUIDANCE, TURN_GUIDANCE
 from motionrt.text import SLOTS, agreement, parse_query, slots_of_text, targets_of_text
 from motionrt_training.networks.motion_denoiser import Condition, MotionDenoiser
 
@@ -72,14 +72,14 @@ def sample(
     seed: int,
     *,
     steps: int = MOTION_STEPS,
-    root: float = WAY_GUIDANCE,
+    turn: float = TURN_GUIDANCE,
     pose: float = POSE_GUIDANCE,
 ) -> list[Features]:
     """Raw ``ego77`` features (frames, 77) of every text."""
     model.eval()
     count, length = len(texts), -(-frames // model.patch) * model.patch
     told = _told(texts, tokens, frames, length)
-    weight = torch.tensor([[root, pose]]).expand(count, 2)
+    weight = torch.tensor([[turn, pose]]).expand(count, 2)
 
     def denoise(state: Features, level: float) -> Features:
         found = model.guided(torch.from_numpy(state), torch.full((count,), level), told, weight)

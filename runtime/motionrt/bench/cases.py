@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
-from motionrt.bench import finds, makes, moves
+from motionrt.bench import generation, locomotion, search
 from motionrt.bench.files import CLIPS, GALLERY, file_calls, gallery_call
 from motionrt.bench.graphs import graph_call, graph_case
 from motionrt.bench.setting import TEXT_TOWER, Setting
@@ -43,67 +43,72 @@ class Benchmark:
 
 
 def _text(setting: Setting) -> Mapping[str, Case]:
-    return {finds.TEXT: Case(finds.text_call(setting.runtime.model, setting.work))}
+    return {search.TEXT: Case(search.text_call(setting.runtime.model, setting.work))}
 
 
 def _full_text(setting: Setting) -> Mapping[str, Case]:
-    return {finds.FULL_TEXT: Case(finds.text_call(setting.full_text, setting.work))}
+    return {search.FULL_TEXT: Case(search.text_call(setting.full_text, setting.work))}
 
 
 def _motion(setting: Setting) -> Mapping[str, Case]:
     runtime, work = setting.runtime, setting.work
-    return {finds.motion_case(n): Case(finds.motion_call(runtime, work, n), n, slow=n > 8) for n in finds.CLIPS}
+    return {search.motion_case(n): Case(search.motion_call(runtime, work, n), n, slow=n > 8) for n in search.CLIPS}
 
 
 def _search(setting: Setting) -> Mapping[str, Case]:
     work = setting.work
-    return {finds.search_case(n): Case(finds.search_call(work.vectors[:n], work.vectors[-1])) for n in work.sizes}
+    return {search.search_case(n): Case(search.search_call(work.vectors[:n], work.vectors[-1])) for n in work.sizes}
 
 
 def _approximate(setting: Setting) -> Mapping[str, Case]:
     work = setting.work
     return {
-        finds.approximate_case(n): Case(finds.approximate_call(work.vectors[:n], work.vectors[-1])) for n in work.sizes
+        search.approximate_case(n): Case(search.approximate_call(work.vectors[:n], work.vectors[-1]))
+        for n in work.sizes
     }
 
 
 def _retrieve(setting: Setting) -> Mapping[str, Case]:
     runtime, work = setting.runtime, setting.work
-    return {finds.answer_case(n): Case(finds.answer_call(runtime, work, n)) for n in work.sizes}
+    return {search.answer_case(n): Case(search.answer_call(runtime, work, n)) for n in work.sizes}
 
 
 def _generate(setting: Setting) -> Mapping[str, Case]:
-    return {name: Case(call) for name, call in makes.generate_calls(setting.runtime.generator).items()}
+    return {name: Case(call) for name, call in generation.generate_calls(setting.runtime.generator).items()}
 
 
 def _decode(setting: Setting) -> Mapping[str, Case]:
-    return {makes.DECODE: Case(makes.decode_call(setting.runtime.generator))}
+    return {generation.DECODE: Case(generation.decode_call(setting.runtime.generator))}
 
 
 def _compose(setting: Setting) -> Mapping[str, Case]:
-    return {makes.COMPOSE: Case(makes.compose_call(setting.runtime))}
+    return {generation.COMPOSE: Case(generation.compose_call(setting.runtime))}
 
 
 def _parts(setting: Setting) -> Mapping[str, Case]:
-    return {makes.BODY_PARTS: Case(makes.parts_call(setting.runtime))}
+    return {generation.BODY_PARTS: Case(generation.parts_call(setting.runtime))}
 
 
 def _walk(setting: Setting) -> Mapping[str, Case]:
     inputs, model = setting.work.moves, setting.character_models.walk
-    cases = {moves.walk_case(n): Case(moves.walk_call(model, inputs, n), n) for n in moves.CROWDS}
+    cases = {locomotion.walk_case(n): Case(locomotion.walk_call(model, inputs, n), n) for n in locomotion.CROWDS}
     if setting.threads > 1:
         each = WalkModel(Sessions(setting.models, threads=1), setting.variant)
         spread = Spread(each, setting.threads)
-        cases |= {moves.walk_case(n, spread=True): Case(moves.walk_call(spread, inputs, n), n) for n in SPREAD}
+        cases |= {
+            locomotion.walk_case(n, spread=True): Case(locomotion.walk_call(spread, inputs, n), n) for n in SPREAD
+        }
     return cases
 
 
 def _transition(setting: Setting) -> Mapping[str, Case]:
-    return {moves.TRANSITION: Case(moves.transition_call(setting.character_models.infill, setting.work.moves))}
+    return {
+        locomotion.TRANSITION: Case(locomotion.transition_call(setting.character_models.infill, setting.work.moves))
+    }
 
 
 def _pose(setting: Setting) -> Mapping[str, Case]:
-    return {moves.POSE: Case(moves.pose_call(setting.character_models.prior, setting.work.moves))}
+    return {locomotion.POSE: Case(locomotion.pose_call(setting.character_models.prior, setting.work.moves))}
 
 
 def _perform(setting: Setting) -> Mapping[str, Case]:
@@ -112,7 +117,7 @@ def _perform(setting: Setting) -> Mapping[str, Case]:
     def perform() -> int:
         return setting.runtime.perform(None, SCRIPT, start=(0.0, 0.0)).motion.frames
 
-    return {moves.PERFORM: Case(perform, perform(), slow=True)}
+    return {locomotion.PERFORM: Case(perform, perform(), slow=True)}
 
 
 def _files(setting: Setting) -> Mapping[str, Case]:

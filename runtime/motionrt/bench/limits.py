@@ -9,10 +9,10 @@ from typing import Any
 
 from motionrt.bench.answering import answered
 from motionrt.bench.cases import chosen
-from motionrt.bench.finds import search_case
 from motionrt.bench.nodes import Work
 from motionrt.bench.peaks import machine_peaks
 from motionrt.bench.profiling import BenchmarkWork, benchmark_work
+from motionrt.bench.search import search_case
 from motionrt.bench.setting import Setting
 from motionrt.bench.workload import SIZES, Workload
 from motionrt.models.tmr import DIMENSION

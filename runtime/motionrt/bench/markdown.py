@@ -8,10 +8,10 @@ from typing import Any
 
 from motionrt.bench import tables
 from motionrt.bench.files import GALLERY, LOAD
-from motionrt.bench.finds import FULL_TEXT, TEXT, answer_case, motion_case, search_case
-from motionrt.bench.makes import BODY_PARTS, COMPOSE, DECODE, generate_case
-from motionrt.bench.moves import POSE, TRANSITION, walk_case
+from motionrt.bench.generation import BODY_PARTS, COMPOSE, DECODE, generate_case
+from motionrt.bench.locomotion import POSE, TRANSITION, walk_case
 from motionrt.bench.report import rivals_of
+from motionrt.bench.search import FULL_TEXT, TEXT, answer_case, motion_case, search_case
 from motionrt.bench.tables import ms
 from motionrt.errors import InvalidInputError
 

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from motionrt.bench.finds import CLIPS, answer_case, motion_case, search_case
-from motionrt.bench.moves import CROWDS, walk_case
+from motionrt.bench.locomotion import CROWDS, walk_case
 from motionrt.bench.report import rivals_of
+from motionrt.bench.search import CLIPS, answer_case, motion_case, search_case
 from motionrt.errors import InvalidInputError, MissingDependencyError
 
 if TYPE_CHECKING:

@@ -13,8 +13,8 @@ from motionrt.bench.cases import COLD, chosen
 from motionrt.bench.footprint import install_sizes
 from motionrt.bench.graphs import graph_case
 from motionrt.bench.limits import against_times
+from motionrt.bench.locomotion import PERFORM
 from motionrt.bench.memory import peaks
-from motionrt.bench.moves import PERFORM
 from motionrt.bench.processes import run_module
 from motionrt.bench.starts import cold_starts
 from motionrt.bench.timing import Turns

@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from motionrt.bench.moves import Moves
+from motionrt.bench.locomotion import Moves
 from motionrt.motion.features import guo263
 from motionrt.motion.skeleton import FloatArray
 from motionrt.retrieval import Clip, Gallery

@@ -8,6 +8,8 @@ from pathlib import Path
 from typing import BinaryIO
 
 from motionrt.errors import InvalidInputError
+from motionrt.untrusted.files import as_path
+from motionrt.untrusted.words import shown
 
 
 def write_atomically(path: str | Path, write: Callable[[BinaryIO], None]) -> Path:
@@ -16,7 +18,9 @@ def write_atomically(path: str | Path, write: Callable[[BinaryIO], None]) -> Pat
     Raises:
         InvalidInputError: the system refuses (no such folder, no permission, disk full); says why.
     """
-    path = Path(path)
+    path = as_path(path)
+    if not path.name:
+        raise InvalidInputError(f"cannot write {shown(str(path))}: it names no file")
     temporary = path.with_name(f".{path.name}.{uuid.uuid4().hex[:8]}.tmp")
     try:
         with temporary.open("xb") as file:

@@ -18,6 +18,7 @@ from motionrt.formats.gltf.choice import chosen
 from motionrt.formats.text import require_file
 from motionrt.motion.rotations import Array, normalise, quaternion_to_matrix
 from motionrt.rigs.clip import RigClip
+from motionrt.untrusted.files import as_path
 
 FILE_LIMIT = 2**31
 JOINT_LIMIT, VALUE_LIMIT = 2048, 20_000_000
@@ -51,7 +52,7 @@ def read_fbx(
         MotionFileNotFoundError: there is no such file.
         FormatError: no FBX file, no skeleton, or several to choose from.
     """
-    path = Path(path)
+    path = as_path(path)
     scene = open_scene(path)
     joints = _joints(scene, path)
     if still:

@@ -8,6 +8,7 @@ from pathlib import Path
 from motionrt.errors import MotionFileNotFoundError, MotionRTError
 from motionrt.formats.gltf.container import GLTF_SUFFIXES
 from motionrt.formats.load import MOTION_SUFFIXES
+from motionrt.untrusted.files import as_path
 
 
 def find_motions(folder: str | Path) -> list[tuple[str, str | None]]:
@@ -18,7 +19,7 @@ def find_motions(folder: str | Path) -> list[tuple[str, str | None]]:
     Raises:
         MotionFileNotFoundError: no such folder, or not one motion file in it.
     """
-    folder = Path(folder)
+    folder = as_path(folder)
     names = []
     for place, folders, files in os.walk(folder):
         folders[:] = sorted(name for name in folders if not name.startswith("."))
@@ -37,7 +38,7 @@ def animations_of(path: str | Path) -> list[str]:
 
     A file that cannot be read has none: reading it says why.
     """
-    path = Path(path)
+    path = as_path(path)
     try:
         if _suffix(path.name) in GLTF_SUFFIXES:
             from motionrt.formats.gltf.document import open_glb

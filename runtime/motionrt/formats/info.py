@@ -23,6 +23,8 @@ from motionrt.rigs.placement import leg_scale
 from motionrt.rigs.plain_kinematics import angles_between, joint_transforms
 from motionrt.rigs.retarget_in import to_smpl24
 from motionrt.rigs.stance import Stance, read_stance
+from motionrt.untrusted.arguments import checked_mapping
+from motionrt.untrusted.files import as_path
 
 _LIMBS = (("hip", "knee"), ("knee", "ankle"), ("shoulder", "elbow"), ("elbow", "wrist"))
 _FAR_OFF = 3.0
@@ -80,10 +82,11 @@ def motion_file_info(path: str | Path, *, mapping: Mapping[str, str] | None = No
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         clip = load_rig(path, **reading)
+    mapping = checked_mapping(mapping, "mapping")
     part, reference = drop_leading_tpose(clip)
     joints = sum(not name.endswith("_end") for name in clip.names)
     facts: dict[str, Any] = {
-        "path": Path(path),
+        "path": as_path(path),
         "kind": rig_kind(clip.names),
         "joints": joints,
         "fps": clip.fps,

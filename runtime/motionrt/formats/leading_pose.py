@@ -7,6 +7,7 @@ import numpy.typing as npt
 
 from motionrt.motion.skeleton import FloatArray
 from motionrt.rigs.clip import RigClip
+from motionrt.untrusted.arguments import check_kind
 
 _LATEST_JUMP = 4
 """The jump away from the pose is looked for in so many steps: blank frames may stand before the motion."""
@@ -35,6 +36,7 @@ def drop_leading_tpose(clip: RigClip) -> tuple[RigClip, FloatArray | None]:
         The clip without those frames, and frame 0 as a reference pose: local rotations ``(J, 3, 3)``.
         ``(clip, None)`` if there is nothing to drop.
     """
+    check_kind(clip, RigClip, "clip", "a RigClip")
     joints = [j for j, name in enumerate(clip.names) if not name.endswith("_end")]
     lead = _lead(clip.rotations[: _LONGEST_LEAD + _LATER_STEPS + 1, joints])
     if lead == 0:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
 
-from motionrt.errors import FormatError, InvalidInputError, MotionFileWarning, MotionRTError
+from motionrt.errors import InvalidInputError, MotionFileWarning
 from motionrt.formats.acclaim import read_amc
 from motionrt.formats.bvh import read_bvh, write_bvh
 from motionrt.formats.fbx import read_fbx
@@ -22,6 +22,7 @@ from motionrt.motion.checks import checked_fps
 from motionrt.motion.motion import Motion
 from motionrt.rigs.clip import RigClip
 from motionrt.rigs.retarget_in import to_smpl24
+from motionrt.untrusted.arguments import check_flags, check_kind, checked_choice, checked_mapping, checked_up
 from motionrt.untrusted.files import as_path
 
 MOTION_SUFFIXES = (".bvh", ".amc", ".npz", ".npy", ".fbx", *GLTF_SUFFIXES)
@@ -64,8 +65,9 @@ def load_rig(
     require_file(path)
     if fps is not None:
         fps = checked_fps(fps)
-    if up not in {None, "y", "z"}:
-        raise InvalidInputError(f"up must be 'y' or 'z', not '{up}'")
+    checked_up(up)
+    checked_choice(animation, "animation")
+    checked_choice(skin, "skin")
     suffix = _suffix(path, MOTION_SUFFIXES, "read")
     readers: dict[str, Callable[[], RigClip]] = {
         ".bvh": lambda: read_bvh(path, fps=fps),
@@ -74,12 +76,7 @@ def load_rig(
         ".npy": lambda: read_npy(path, fps=fps),
         ".fbx": lambda: read_fbx(path, fps=fps, animation=animation),
     }
-    try:
-        clip = readers.get(suffix, lambda: read_glb(path, fps=fps, animation=animation, skin=skin))()
-    except MotionRTError:
-        raise
-    except Exception as error:  # whatever the bytes are, nothing else may come out of a reader
-        raise FormatError(path, f"cannot be read ({type(error).__name__}: {error})") from error
+    clip = readers.get(suffix, lambda: read_glb(path, fps=fps, animation=animation, skin=skin))()
     for note in clip.notes:
         warnings.warn(f"{path}: {note}", MotionFileWarning, stacklevel=3)
     return clip if up is None or suffix in {".npz", ".npy"} else replace(clip, up=up)
@@ -112,6 +109,8 @@ def load_motion(
         MotionFileNotFoundError, FormatError, InvalidInputError: as :func:`load_rig`.
         RigError: the rig cannot be mapped to ``smpl24``; the message names what is missing.
     """
+    mapping = checked_mapping(mapping, "mapping")
+    check_flags(keep_first_frame=keep_first_frame)
     clip = load_rig(path, asf=asf, fps=fps, animation=animation, skin=skin, up=up)
     motion_part, reference = drop_leading_tpose(clip)
     return to_smpl24(clip if keep_first_frame else motion_part, mapping=mapping, reference=reference)
@@ -130,9 +129,12 @@ def save_motion(motion: Motion, path: str | Path, *, units: str | None = None, t
         InvalidInputError: another suffix, options that the format does not have, or the file cannot be written.
     """
     path = as_path(path)
+    check_kind(motion, Motion, "motion", "a Motion")
+    check_flags(t_pose=t_pose)
+    check_kind(units, str | None, "units", "the name of a unit")
     suffix = _suffix(path, WRITABLE_SUFFIXES, "written")
     if suffix == ".bvh":
-        return write_bvh(motion, path, scale=units_per_metre(units or "cm"), t_pose=t_pose)
+        return write_bvh(motion, path, scale=units_per_metre("cm" if units is None else units), t_pose=t_pose)
     if t_pose or units not in {None, "m"}:
         raise InvalidInputError(f"units and t_pose are for .bvh; a '{suffix}' is in metres and knows its rest pose")
     return write_npz(motion, path) if suffix == ".npz" else write_glb(motion, path)

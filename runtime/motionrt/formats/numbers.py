@@ -9,10 +9,13 @@ import numpy.typing as npt
 
 from motionrt.errors import FormatError
 from motionrt.formats.text import LARGEST_VALUE, require_file
+from motionrt.motion.checks import checked_fps
 from motionrt.motion.features import guo263
 from motionrt.motion.motion import Motion
 from motionrt.rigs.clip import RigClip
 from motionrt.rigs.from_positions import motion_from_positions
+from motionrt.untrusted import npz
+from motionrt.untrusted.files import as_path
 
 _PICKLED = (
     "holds pickled objects, which can run any program and are never loaded; in Python, save its joints alone:"
@@ -28,13 +31,11 @@ def read_npy(path: Path, *, fps: float | None = None) -> RigClip:
     Raises:
         FormatError: pickled objects, another shape, or numbers that are not finite.
     """
+    path = as_path(path)
     require_file(path)
-    try:
-        values = np.load(path, allow_pickle=False)
-    except ValueError as error:
-        raise FormatError(path, _PICKLED if "allow_pickle" in str(error) else f"is damaged ({error})") from error
-    except (OSError, EOFError) as error:
-        raise FormatError(path, f"cannot be read: {error}") from error
+    if fps is not None:
+        fps = checked_fps(fps)
+    values = npz.read_npy(path, lambda reason, _: FormatError(path, _PICKLED if "pickled" in reason else reason))
     return as_clip(joints_as_motion(values, fps or guo263.FPS, path))
 
 

@@ -12,11 +12,14 @@ from motionrt.errors import FormatError, InvalidInputError
 from motionrt.formats.atomic import write_atomically
 from motionrt.formats.numbers import as_clip, joints_as_motion
 from motionrt.formats.text import LARGEST_VALUE, require_file
+from motionrt.motion.checks import checked_fps
 from motionrt.motion.kinematics import fk
 from motionrt.motion.motion import Motion
 from motionrt.motion.rotations import axis_angle_to_matrix, matrix_to_axis_angle, normalise
 from motionrt.motion.skeleton import SMPL24
 from motionrt.rigs.clip import RigClip
+from motionrt.untrusted.arguments import check_kind, checked_up
+from motionrt.untrusted.files import as_path
 from motionrt.untrusted.npz import read_arrays
 
 Array = npt.NDArray[np.float64]
@@ -67,14 +70,15 @@ def read_npz(path: str | Path, *, fps: float | None = None, up: str | None = Non
         MotionFileNotFoundError: there is no such file.
         FormatError: not an npz archive, a key is missing, or an array has a wrong shape or type.
     """
-    path = Path(path)
+    path = as_path(path)
+    checked_up(up)
     arrays = _read_arrays(path)
     if "posed_joints" in arrays:
         return _from_joints(arrays, path, fps)
     layout = next((layout for layout in _LAYOUTS if set(layout[0]) <= arrays.keys()), _LAYOUTS[0])
     poses = _poses(arrays, layout[0], path)
     trans, notes = _places(arrays, layout[1], len(poses), path)
-    rate = _frame_rate(arrays, path) if fps is None else float(fps)
+    rate = _frame_rate(arrays, path) if fps is None else checked_fps(fps)
     rotations = axis_angle_to_matrix(_select_joints(poses))
     turn = np.eye(3) if (up or _vertical(rotations, trans)) == "y" else _Z_UP_TO_Y_UP
     rotations[:, 0] = turn @ rotations[:, 0]
@@ -134,6 +138,7 @@ def write_npz(motion: Motion, path: str | Path) -> Path:
     Raises:
         InvalidInputError: the motion's skeleton is not ``smpl24``, or the file cannot be written.
     """
+    check_kind(motion, Motion, "motion", "a Motion")
     if motion.skeleton.names != SMPL24.names:
         raise InvalidInputError("an AMASS file holds the joints of smpl24 only; write this skeleton as BVH")
     rotations = motion.rotations.astype(np.float64)

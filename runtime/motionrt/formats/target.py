@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from motionrt.errors import FormatError, InvalidInputError, MotionRTError
+from motionrt.errors import InvalidInputError
 from motionrt.formats.bvh.read import parse_bvh
 from motionrt.formats.bvh.rig import build_rig
 from motionrt.formats.bvh.target import BvhTarget
@@ -23,6 +23,8 @@ from motionrt.motion.skeleton import FloatArray
 from motionrt.rigs.clip import RigClip
 from motionrt.rigs.retarget_out import to_rig
 from motionrt.rigs.target import Rig, RigMotion
+from motionrt.untrusted.arguments import checked_choice
+from motionrt.untrusted.files import as_path
 
 
 def load_target(path: str | Path, *, animation: int | str | None = None, skin: int | str | None = None) -> Rig:
@@ -39,29 +41,26 @@ def load_target(path: str | Path, *, animation: int | str | None = None, skin: i
         FormatError: the file cannot be read; the message says why.
         InvalidInputError: another suffix.
     """
-    path = Path(path)
+    path = as_path(path)
     require_file(path)
     readers: dict[str, Callable[[], Rig]] = {
         ".bvh": lambda: _from_bvh(path),
         ".fbx": lambda: _from_fbx(path, animation),
         **dict.fromkeys(GLTF_SUFFIXES, lambda: _from_glb(path, animation, skin)),
     }
+    checked_choice(animation, "animation")
+    checked_choice(skin, "skin")
     suffix = path.suffix.lower()
     if suffix not in readers:
         raise InvalidInputError(f"{path}: a rig '{suffix}' cannot be a target; can be: {', '.join(RIG_SUFFIXES)}")
-    try:
-        return readers[suffix]()
-    except MotionRTError:
-        raise
-    except Exception as error:  # whatever the bytes are, nothing else may come out of a reader
-        raise FormatError(path, f"cannot be read ({type(error).__name__}: {error})") from error
+    return readers[suffix]()
 
 
 def retarget_to(
     motion: Motion, rig: Rig | str | Path, *, mapping: Mapping[str, str] | None = None, root_motion: bool | str = False
 ) -> RigMotion:
     """``motion`` on a character, its file or what :func:`load_target` made of it, as :meth:`.Motion.retarget_to`."""
-    target = load_target(rig) if isinstance(rig, str | Path) else rig
+    target = rig if isinstance(rig, Rig) else load_target(rig)
     return to_rig(motion, target, mapping=mapping, root_motion=root_motion)
 
 

@@ -10,6 +10,7 @@ from motionrt.errors import InvalidInputError
 from motionrt.motion.rotations import rotation_between
 from motionrt.rigs.clip import RigClip
 from motionrt.rigs.target import RigMotion
+from motionrt.untrusted.words import shown
 
 UNITS = {"m": 1.0, "cm": 100.0, "mm": 1000.0, "in": 1 / 0.0254}
 """Names of units and how many of them are a metre."""
@@ -20,8 +21,8 @@ _USUAL = (1.0, 0.1, 0.0254, 0.01, 0.001, 0.3048, 2.54 / 45, 0.056444)
 
 def units_per_metre(units: str) -> float:
     """How many of the unit of that name are a metre; InvalidInputError lists the names."""
-    if units not in UNITS:
-        raise InvalidInputError(f"units must be one of {', '.join(UNITS)}, not '{units}'")
+    if not isinstance(units, str) or units not in UNITS:
+        raise InvalidInputError(f"units must be one of {', '.join(UNITS)}, not {shown(units)}")
     return UNITS[units]
 
 

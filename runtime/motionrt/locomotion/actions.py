@@ -9,6 +9,8 @@ from dataclasses import dataclass
 from motionrt.errors import InvalidInputError
 from motionrt.limits import check_place, how_to_raise, limits
 from motionrt.locomotion.path import Path
+from motionrt.untrusted.arguments import check_kind, real
+from motionrt.untrusted.words import shown
 
 HOLD_S = 2.0  # seconds that a pose is held if nothing else is said
 
@@ -50,6 +52,10 @@ class Follow:
     path: Path
     heading: float | None = None
 
+    def __post_init__(self) -> None:
+        check_kind(self.path, Path, "path", "a motionrt.Path")
+        check_place("a heading (x, z, heading)", (), self.heading)
+
     @property
     def name(self) -> str:
         """What it is called in the timeline."""
@@ -76,6 +82,8 @@ class Act:
 
     def __post_init__(self) -> None:
         _check_seconds(self.hold_s, self.name)
+        check_kind(self.keypoints, Mapping, "keypoints", "like {'right_wrist': (0.2, 1.2, 0.4)}")
+        check_place("a heading (x, z, heading)", (), self.heading)
 
 
 @dataclass(frozen=True)
@@ -125,7 +133,8 @@ Action = WalkTo | Follow | Act | Do | Stand | Wait
 
 
 def _check_seconds(seconds: float, name: str) -> None:
-    if not (math.isfinite(seconds) and seconds >= 0):
-        raise InvalidInputError(f"'{name}' cannot last {seconds} s; give 0 or more seconds")
+    check_kind(name, str, "a name, or what to do,", "a text")
+    if not 0 <= real(seconds) < math.inf:
+        raise InvalidInputError(f"'{shown(name)}' cannot last {shown(seconds)} s; give 0 or more seconds")
     if seconds > limits().seconds:
         raise InvalidInputError(f"'{name}' cannot last {seconds:g} s: {how_to_raise('seconds')}")

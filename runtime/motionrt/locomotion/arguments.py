@@ -7,7 +7,6 @@ from os import PathLike
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING
 
-import numpy as np
 import numpy.typing as npt
 
 from motionrt.errors import InvalidInputError
@@ -16,6 +15,8 @@ from motionrt.locomotion.character import Planner
 from motionrt.locomotion.goal_frame import Goal
 from motionrt.locomotion.path import Path
 from motionrt.motion import Motion
+from motionrt.untrusted.arguments import checked_number, listed
+from motionrt.untrusted.words import shown
 
 if TYPE_CHECKING:
     from motionrt.locomotion.words import SemanticCloud
@@ -29,7 +30,7 @@ def as_path(path: PathLikes) -> Path:
     """A path, its file (CSV of x and z), or its points ``(N, 2)``."""
     if isinstance(path, Path):
         return path
-    return Path.from_csv(path) if isinstance(path, str | PathLike) else Path(np.asarray(path, dtype=np.float32))
+    return Path.from_csv(path) if isinstance(path, str | PathLike) else Path(path)  # type: ignore[arg-type]
 
 
 def as_scene(scene: SceneLike | None) -> Planner | None:
@@ -43,17 +44,17 @@ def opened_scene(scene: SceneLike) -> Planner:
         from motionrt.locomotion.scene import Scene
 
         return Scene.open(scene)
-    if not hasattr(scene, "plan"):
-        raise InvalidInputError(f"a scene is a Scene, or the file of a mesh or a map, not {scene!r}")
+    if isinstance(scene, type) or not callable(getattr(scene, "plan", None)):
+        raise InvalidInputError(f"a scene is a Scene, or the file of a mesh or a map, not {shown(scene)}")
     return scene
 
 
 def as_cloud(cloud: SemanticCloud | str | FilePath | None) -> SemanticCloud | None:
     """A semantic point cloud, or its file."""
-    if not isinstance(cloud, str | PathLike):
-        return cloud
-    from motionrt.locomotion.words import load_cloud
+    from motionrt.locomotion.words import SemanticCloud, load_cloud
 
+    if cloud is None or isinstance(cloud, SemanticCloud):
+        return cloud
     return load_cloud(cloud)
 
 
@@ -61,7 +62,7 @@ def as_place(place: Sequence[float], what: str = "a place") -> Place:
     """Two finite numbers, x and z; InvalidInputError otherwise."""
     numbers = _numbers(place)
     if len(numbers) != 2:
-        raise InvalidInputError(f"{what} is x and z in metres, as in (2.0, 5.5), not {place!r}")
+        raise InvalidInputError(f"{what} is x and z in metres, as in (2.0, 5.5), not {shown(place)}")
     return numbers[0], numbers[1]
 
 
@@ -82,7 +83,7 @@ def as_start(start: StartLike | None, path: Path | None = None) -> Goal | Motion
     numbers = _numbers(start)
     if len(numbers) not in {2, 3}:
         raise InvalidInputError(
-            f"a start is (x, z) in metres, (x, z, heading) with radians, a Goal or a Motion, not {start!r}"
+            f"a start is (x, z) in metres, (x, z, heading) with radians, a Goal or a Motion, not {shown(start)}"
         )
     along = 0.0 if path is None else heading_along(path, 0.0)
     return Goal(numbers[0], numbers[1], numbers[2] if len(numbers) == 3 else along)
@@ -90,7 +91,6 @@ def as_start(start: StartLike | None, path: Path | None = None) -> Goal | Motion
 
 def _numbers(values: Sequence[float]) -> list[float]:
     try:
-        numbers = [float(value) for value in values]
-    except (TypeError, ValueError):
+        return [checked_number(value, "a place") for value in listed(values, "a place", "numbers")]
+    except InvalidInputError:
         return []
-    return numbers if np.isfinite(numbers).all() else []

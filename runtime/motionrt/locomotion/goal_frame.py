@@ -15,6 +15,7 @@ from motionrt.motion import Motion
 from motionrt.motion.features import ccf219
 from motionrt.motion.rotations import Array, axis_rotation
 from motionrt.motion.transforms import moved, turned
+from motionrt.untrusted.arguments import check_kind
 
 PELVIS = slice(0, 9)
 
@@ -45,12 +46,19 @@ class Goal:
 
 def canonicalise(motion: Motion, goal: Goal) -> Motion:
     """``motion`` seen from ``goal`` (eq. 2 and 3)."""
+    _check(motion, goal)
     return turned(moved(motion, np.array([-goal.x, 0, -goal.z])), -goal.heading)
 
 
 def uncanonicalise(motion: Motion, goal: Goal) -> Motion:
     """Inverse of :func:`canonicalise` (eq. 4 and 5)."""
+    _check(motion, goal)
     return moved(turned(motion, goal.heading), np.array([goal.x, 0, goal.z]))
+
+
+def _check(motion: Motion, goal: Goal) -> None:
+    check_kind(motion, Motion, "motion", "a Motion")
+    check_kind(goal, Goal, "goal", "a Goal")
 
 
 def frames_to_goal(frames: Array, goals: Array) -> Array:

@@ -14,6 +14,8 @@ from motionrt.formats.text import read_text, to_float
 from motionrt.limits import how_to_raise, limits
 from motionrt.locomotion.corners import round_corners
 from motionrt.motion.skeleton import FloatArray
+from motionrt.untrusted.arguments import checked_array, checked_number
+from motionrt.untrusted.files import as_path
 
 _SAME_POINT = 1e-6
 _BATCH = 1_000_000  # point-segment pairs that project() holds in memory at once
@@ -51,7 +53,8 @@ class Path:
     notes: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
-        points = np.array(self.points, dtype=np.float32)
+        with np.errstate(over="ignore"):  # infinity is refused below
+            points = checked_array(self.points, "path points", "(x, z) in metres, one or more").astype(np.float32)
         if points.ndim != 2 or points.shape[1] != 2:
             raise InvalidInputError(f"path points must have the shape (N, 2), x and z in metres, not {points.shape}")
         if len(points) > limits().path_points:
@@ -81,7 +84,7 @@ class Path:
             MotionFileNotFoundError: there is no such file.
             FormatError: a line cannot be read, or there are not two different points; names file and line.
         """
-        path = FilePath(file)
+        path = as_path(file)
         rows = [(n, _cells(line)) for n, line in enumerate(read_text(path).split("\n"), start=1) if _cells(line)]
         columns, rows = _columns(rows, path)
         points = [[_number(row, column, path, n) for column in columns] for n, row in rows]
@@ -106,13 +109,13 @@ class Path:
 
     def at(self, s: npt.ArrayLike) -> FloatArray:
         """The places ``[..., 2]`` at arc lengths ``s`` ``[...]`` metres."""
-        where = np.asarray(s, dtype=np.float64)
+        where = _arc(s)
         axes = [np.interp(where, self._marks, self.points[:, axis]) for axis in (0, 1)]
         return np.stack(axes, axis=-1).astype(np.float32)
 
     def tangent(self, s: npt.ArrayLike) -> FloatArray:
         """Unit directions ``[..., 2]`` at arc lengths ``s`` ``[...]``; at a corner that of the way ahead."""
-        index = np.searchsorted(self._marks, np.asarray(s, dtype=np.float64), side="right") - 1
+        index = np.searchsorted(self._marks, _arc(s), side="right") - 1
         steps = self._steps[np.clip(index, 0, len(self._steps) - 1)]
         return np.asarray(steps / np.linalg.norm(steps, axis=-1, keepdims=True), dtype=np.float32)
 
@@ -121,7 +124,7 @@ class Path:
 
         Where the path crosses itself the earlier of two equally near places wins.
         """
-        points = np.asarray(xz, dtype=np.float64)
+        points = checked_array(xz, "points to project", "numbers, (..., 2)")
         if points.shape[-1:] != (2,):
             raise InvalidInputError(f"points to project must have the shape (..., 2), not {points.shape}")
         flat = points.reshape(-1, 2)
@@ -144,7 +147,7 @@ class Path:
 
         The start is not among them, the end is the last one.
         """
-        if not (np.isfinite(spacing) and spacing > 0):
+        if checked_number(spacing, "the spacing of waypoints") <= 0:
             raise InvalidInputError(f"the spacing of waypoints must be a positive number of metres, not {spacing}")
         count = max(1, int(np.ceil(self.length / spacing - 1e-6)))
         s = np.linspace(0, self.length, count + 1)[1:]
@@ -153,6 +156,7 @@ class Path:
 
     def part(self, start: float, end: float) -> Path:
         """The piece between two arc lengths in metres."""
+        start, end = checked_number(start, "start"), checked_number(end, "end")
         inner = (self._marks > start) & (self._marks < end)
         return Path(np.concatenate([self.at([start]), self.points[inner], self.at([end])]), self.notes)
 
@@ -161,7 +165,12 @@ class Path:
 
         This knows nothing of walls: paths from :meth:`Scene.plan` are rounded already, and stay clear of them.
         """
+        radius = checked_number(radius, "radius", 0.0)
         return Path(round_corners(self.points, [(radius, lambda _: True)]).astype(np.float32), self.notes)
+
+
+def _arc(s: npt.ArrayLike) -> npt.NDArray[np.float64]:
+    return checked_array(s, "arc lengths", "numbers in metres")
 
 
 def _cells(line: str) -> list[str]:

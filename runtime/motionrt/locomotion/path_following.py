@@ -13,6 +13,8 @@ from motionrt.locomotion.crowd import FPS, SPEED, Crowd, NextFrame, history_of, 
 from motionrt.locomotion.path import Path
 from motionrt.locomotion.waypoints import RADIUS, WaypointTargets
 from motionrt.motion import Motion
+from motionrt.untrusted.arguments import real
+from motionrt.untrusted.words import shown
 
 SPACING = 1.0  # metres between waypoints
 ARRIVED = 0.1  # metres from the end of a path that are as good as there
@@ -44,9 +46,11 @@ class Pace:
         return replace(self, until=metres)
 
     def __post_init__(self) -> None:
-        if not (0.3 <= self.speed <= 5.0):
-            raise InvalidInputError(f"speed must lie between 0.3 and 5 m/s (walking: 0.8 to 1.6), not {self.speed}")
-        if not (self.spacing > 0 and self.radius > 0 and self.until >= 0):
+        if not (0.3 <= real(self.speed) <= 5.0):
+            raise InvalidInputError(
+                f"speed must lie between 0.3 and 5 m/s (walking: 0.8 to 1.6), not {shown(self.speed)}"
+            )
+        if not (real(self.spacing) > 0 and real(self.radius) > 0 and real(self.until) >= 0):
             raise InvalidInputError("spacing and radius must be above 0 m, until not below")
 
 

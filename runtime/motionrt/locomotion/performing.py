@@ -22,6 +22,7 @@ from motionrt.locomotion.path_following import Pace, Progress
 from motionrt.locomotion.performance import Performance
 from motionrt.motion import Motion
 from motionrt.motion.transforms import TOE_JOINTS
+from motionrt.untrusted.arguments import check_flags, check_kind, listed
 
 if TYPE_CHECKING:
     from motionrt.locomotion.words import SemanticCloud
@@ -71,6 +72,10 @@ class Performer:
             WalkError: the character got stuck.
             InvalidInputError: no actions, or an instruction that means nothing here.
         """
+        check_flags(stop=stop, foot_lock=foot_lock)
+        actions = listed(actions, "actions", "actions")
+        for action in actions:
+            check_kind(action, WalkTo | Follow | Act | Do | Stand | Wait, "each of actions", "a WalkTo, Act, Do ...")
         if not actions:
             raise InvalidInputError("give at least one action")
         for index, action in enumerate(actions):

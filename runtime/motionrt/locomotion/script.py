@@ -12,6 +12,7 @@ from motionrt.locomotion.path_following import Pace
 from motionrt.locomotion.script_nodes import Node, read_nodes
 from motionrt.locomotion.script_scene import SceneSpec, file_beside, read_scene
 from motionrt.locomotion.script_steps import read_steps
+from motionrt.untrusted.files import as_path
 
 _KEYS = ("scene", "cloud", "start", "speed", "seed", "foot_lock", "steps")
 
@@ -48,7 +49,7 @@ class Script:
             ScriptError: it cannot be read, or anything in it is unknown, missing or of the wrong kind; the message
                 names file, line, step and remedy.
         """
-        root = read_nodes(FilePath(file))
+        root = read_nodes(as_path(file))
         found = root.fields(_KEYS, required=("steps",))
         steps = read_steps(found["steps"])
         if "cloud" not in found:

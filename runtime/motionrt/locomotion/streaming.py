@@ -7,17 +7,20 @@ from collections.abc import Generator
 import numpy as np
 import numpy.typing as npt
 
+from motionrt.locomotion.arguments import as_goal
 from motionrt.locomotion.bearings import apart, facing_of, over_feet, place_of
 from motionrt.locomotion.character import MOVING, NEAR, SEED, SHARPEST, STRIDE
 from motionrt.locomotion.character_models import CharacterModels
 from motionrt.locomotion.crowd import FPS, SPEED, Crowd, at_30_fps, to_motion
 from motionrt.locomotion.goal_frame import Goal, uncanonicalise
+from motionrt.locomotion.path_following import Pace
 from motionrt.locomotion.transitions import distance, speed_of
 from motionrt.models.walknet import HISTORY
 from motionrt.motion import Motion
 from motionrt.motion.features import ccf219
 from motionrt.motion.feet.live_lock import FootLocker
 from motionrt.motion.rotations import wrapped
+from motionrt.untrusted.arguments import check_flags, checked_whole
 
 THERE = 0.3  # metres and radians: somebody who stands this near to a goal stays
 IDLE_S = 2.0  # seconds of standing that are made at once
@@ -39,13 +42,13 @@ class Stroller:
     def __init__(
         self, models: CharacterModels, start: Goal | Motion, goal: Goal, speed: float = SPEED, seed: int = 0
     ) -> None:
-        self.models, self.goal, self.speed = models, goal, speed
+        self.models, self.goal, self.speed = models, goal, Pace(speed=speed).speed
         before = at_30_fps(start) if isinstance(start, Motion) else uncanonicalise(models.standing, start)
         frames = ccf219.encode(before)[-SEED:].astype(np.float64)
         self._last: Frames = np.pad(frames, ((SEED - len(frames), 0), (0, 0)), mode="edge")
         self._ready: list[Frames] = []
         self._walks = speed_of(before) > MOVING
-        self._seed = seed
+        self._seed = checked_whole(seed, "seed", 0)
 
     def aim(self, goal: Goal) -> None:
         """A new goal, from the next frame on."""
@@ -115,7 +118,11 @@ def stream(
     seed: int = 0,
 ) -> Generator[Motion, Goal | None, None]:
     """Frames for ever, one :class:`Motion` of one frame at 30 fps each: ``next`` goes on, ``send`` gives a new goal."""
-    walker = Stroller(models, start, goal, speed, seed)
+    check_flags(foot_lock=foot_lock)
+    return _frames(Stroller(models, start, goal, speed, seed), foot_lock=foot_lock)
+
+
+def _frames(walker: Stroller, *, foot_lock: bool) -> Generator[Motion, Goal | None, None]:
     locker = FootLocker(FPS)
     while True:
         frame = walker.step()
@@ -124,7 +131,7 @@ def stream(
             frame = Motion(rotations[None], root[None], FPS)
         told = yield frame
         if told is not None:
-            walker.aim(told)
+            walker.aim(as_goal(told))
 
 
 def _rows(motion: Motion) -> Frames:

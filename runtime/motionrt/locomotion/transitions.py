@@ -19,6 +19,7 @@ from motionrt.motion.feet.lock import lock_feet
 from motionrt.motion.rotations import axis_angle_to_matrix, axis_rotation, matrix_to_axis_angle, project_to_so3
 from motionrt.motion.skeleton import FloatArray
 from motionrt.motion.transforms import heading
+from motionrt.untrusted.arguments import check_flags, check_kind
 
 FPS = ccf219.FPS
 FRAMES = WINDOW - SEED  # of a transition: 59 that are filled, and the target
@@ -73,6 +74,10 @@ def transition(
     Raises:
         InvalidInputError: another frame rate than 30 fps, or a target of more than 20 frames.
     """
+    check_kind(seed, Motion, "the motion before a transition", "a Motion")
+    check_kind(target, Motion, "the pose after a transition", "a Motion")
+    check_kind(goal, Goal | None, "goal", "a Goal")
+    check_flags(held=held, foot_lock=foot_lock)
     aim = placed(_checked(target, "target"), goal) if goal is not None else _checked(target, "target")
     tail = _tail(aim, held)
     place = goal if goal is not None and aim.frames == 1 else goal_of(aim[aim.frames - 1 :])

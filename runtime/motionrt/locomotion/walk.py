@@ -10,6 +10,7 @@ from pathlib import Path as FilePath
 import numpy as np
 
 from motionrt.errors import InvalidInputError
+from motionrt.limits import check_place
 from motionrt.locomotion.arguments import PathLikes, StartLike, as_path, as_place, as_start
 from motionrt.locomotion.bearings import Place, apart, heading_along, place_of
 from motionrt.locomotion.character import Character, Planner
@@ -20,6 +21,7 @@ from motionrt.locomotion.path_following import Pace, Progress, walk_together
 from motionrt.locomotion.terrain import Heights, on_plane
 from motionrt.metrics.walk_report import LocomotionMeasures
 from motionrt.motion import Motion
+from motionrt.untrusted.arguments import check_flags, check_functions, checked_whole
 
 _NAME = "walk"
 
@@ -86,11 +88,12 @@ def walk_request(
         InvalidInputError: both or neither of ``to`` and ``path``, or the character is there already.
         PathError: there is no way.
     """
+    check_place("heading", (), heading)
     if (to is None) == (path is None):
         raise InvalidInputError("say where to walk: either to=(x, z) or path=, one of them")
     given = as_path(path) if path is not None else None
     here = _place(as_start(start, given))
-    found = given if given is not None else _way(here, as_place(to or (), "where to walk to"), scene)
+    found = given if given is not None else _way(here, as_place(() if to is None else to, "where to walk to"), scene)
     return WalkRequest(as_start(start, found), found, heading)
 
 
@@ -117,7 +120,9 @@ def run_walks(
         seed: of the small movements of those who stand.
         progress: told how many metres of how many are walked.
     """
-    pace = pace or Pace()
+    check_flags(stop=stop, foot_lock=foot_lock)
+    check_functions(progress=progress)
+    seed, pace = checked_whole(seed, "seed", 0), pace or Pace()
     characters = [Character(models, each.start, scene, pace, seed + i) for i, each in enumerate(requests)]
     ways = [who.way_along(each.path) for who, each in zip(characters, requests, strict=True)]
     until = characters[0].braking if stop else 0.0

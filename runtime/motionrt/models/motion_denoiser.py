@@ -60,7 +60,7 @@ class MotionDenoiser:
             noisy: ``(B, F, 77)`` normalised motions with noise, F from 1 to 200.
             level: ``(B,)`` standard deviations of the noise.
             told: what they should be.
-            guidance: ``(B, 2)`` weights of classifier-free guidance, for the way of the root and for the rest.
+            guidance: ``(B, 2)`` weights of classifier-free guidance, for the turn and for the rest.
 
         Raises:
             InvalidInputError: another shape, or a motion that is not finite.

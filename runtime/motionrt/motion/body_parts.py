@@ -6,6 +6,8 @@ from collections.abc import Iterable
 
 from motionrt.errors import InvalidInputError
 from motionrt.motion.skeleton import SMPL24
+from motionrt.untrusted.arguments import iterable
+from motionrt.untrusted.words import shown
 
 PARTS = ("left arm", "right arm", "left leg", "right leg", "torso", "global")
 """The six body parts of SINC; ``global`` is the orientation and translation of the whole body."""
@@ -39,8 +41,8 @@ def checked_parts(parts: Iterable[str]) -> frozenset[str]:
     """
     if isinstance(parts, str):
         parts = [parts]
-    if not isinstance(parts, Iterable):
-        raise InvalidInputError(f"body parts must be a list of names, not {parts!r}; they are: {', '.join(PARTS)}")
+    if not iterable(parts):
+        raise InvalidInputError(f"body parts must be a list of names, not {shown(parts)}; they are: {', '.join(PARTS)}")
     found = {str(part).strip().lower().replace("_", " ") for part in parts}
     unknown = sorted(found - set(PARTS))
     if unknown:

@@ -8,20 +8,20 @@ import numpy as np
 
 from motionrt.errors import InvalidInputError
 from motionrt.limits import SLOWEST_FPS, how_to_raise, limits
+from motionrt.motion.batches import BATCH, by_batches
 from motionrt.motion.skeleton import FloatArray
+from motionrt.untrusted.arguments import real
 from motionrt.untrusted.words import shown
 
 NOT_A_ROTATION = 0.02
 """By how much rows of a rotation may differ from unit length, from right angles and from a right-handed frame."""
-
-_BATCH = 4096  # frames that are looked at together, so that long motions need little memory
 
 
 def frozen(array: FloatArray, name: str, shape: tuple[int, ...]) -> FloatArray:
     """A read-only float32 copy of ``array`` with ``shape`` behind its frame axis."""
     try:
         with np.errstate(over="ignore"):
-            out = np.array(array, dtype=np.float32)
+            out = by_batches(lambda part: np.array(part, dtype=np.float32), np.asarray(array))
     except (TypeError, ValueError, OverflowError) as error:
         raise InvalidInputError(f"{name} must be an array of numbers, not {shown(array)}") from error
     if out.shape[1:] != shape or out.ndim != len(shape) + 1 or not len(out):
@@ -29,8 +29,8 @@ def frozen(array: FloatArray, name: str, shape: tuple[int, ...]) -> FloatArray:
         raise InvalidInputError(f"{name} must have the shape (frames >= 1, {expected}), not {out.shape}")
     if len(out) > limits().frames:
         raise InvalidInputError(f"{name} has {len(out):,} frames: {how_to_raise('frames')}")
-    for first in range(0, len(out), _BATCH):
-        finite = np.isfinite(out[first : first + _BATCH])
+    for first in range(0, len(out), BATCH):
+        finite = np.isfinite(out[first : first + BATCH])
         if not finite.all():
             bad = first + int(np.argmin(finite.reshape(len(finite), -1).all(axis=1)))
             raise InvalidInputError(f"{name} holds a number that is not finite, first in frame {bad}")
@@ -40,8 +40,8 @@ def frozen(array: FloatArray, name: str, shape: tuple[int, ...]) -> FloatArray:
 
 def check_rotations(rotations: FloatArray, names: Sequence[str]) -> None:
     """InvalidInputError unless all of ``(F, J, 3, 3)`` are rotations: orthonormal and right-handed."""
-    for first in range(0, len(rotations), _BATCH):
-        x, y, z = np.moveaxis(rotations[first : first + _BATCH], -2, 0)
+    for first in range(0, len(rotations), BATCH):
+        x, y, z = np.moveaxis(rotations[first : first + BATCH], -2, 0)
         with np.errstate(over="ignore", invalid="ignore"):
             off = np.maximum(abs((x * x).sum(-1) - 1), abs((y * y).sum(-1) - 1))
             off = np.maximum(np.maximum(off, abs((x * y).sum(-1))), abs(np.cross(x, y) - z).max(-1))
@@ -62,9 +62,7 @@ def check_root(root: FloatArray) -> None:
 
 def checked_fps(fps: object) -> float:
     """A frame rate within range; InvalidInputError otherwise."""
-    number = np.nan
-    if isinstance(fps, int | float | np.integer | np.floating) and not isinstance(fps, bool):
-        number = float(fps) if abs(float(min(max(fps, -1e300), 1e300))) < 1e300 else np.inf
+    number = real(fps)
     if not (np.isfinite(number) and number > 0):
         raise InvalidInputError(f"fps must be a positive number, not {shown(fps)}")
     if not SLOWEST_FPS <= number <= limits().fps:

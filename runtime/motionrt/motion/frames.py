@@ -10,6 +10,7 @@ import numpy as np
 
 from motionrt.errors import InvalidInputError
 from motionrt.motion import checks
+from motionrt.motion.batches import BATCH
 from motionrt.motion.kinematics import fk
 from motionrt.motion.skeleton import SMPL24, FloatArray, Skeleton
 from motionrt.untrusted.words import shown
@@ -56,10 +57,15 @@ class Frames:
 
     @cached_property
     def _posed(self) -> tuple[FloatArray, FloatArray]:
-        positions, rotations = fk(self.rotations, self.root, self.skeleton.offsets, self.skeleton.parents)
+        positions = np.empty((*self.rotations.shape[:2], 3), np.float32)
+        rotations = np.empty(self.rotations.shape, np.float32)
+        for start in range(0, self.frames, BATCH):
+            part = slice(start, start + BATCH)
+            posed = fk(self.rotations[part], self.root[part], self.skeleton.offsets, self.skeleton.parents)
+            positions[part], rotations[part] = posed
         for array in (positions, rotations):
             array.setflags(write=False)
-        return positions.astype(np.float32, copy=False), rotations.astype(np.float32, copy=False)
+        return positions, rotations
 
     def posed_as(self, other: Frames, offset: FloatArray) -> Self:
         """The same; takes over the global positions and rotations that ``other``, ``offset`` (3,) away, has found."""

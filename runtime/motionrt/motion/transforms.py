@@ -12,6 +12,7 @@ import numpy as np
 
 from motionrt.errors import InvalidInputError
 from motionrt.limits import how_to_raise, limits
+from motionrt.motion.batches import by_batches
 from motionrt.motion.checks import checked_fps
 from motionrt.motion.frames import Frames
 from motionrt.motion.rotations import (
@@ -60,25 +61,31 @@ def resample(motion: Clip, fps: float) -> Clip:
     after = np.minimum(before + 1, motion.frames - 1)
     weight = (times - before).astype(np.float32)
     root = motion.root[before] * (1 - weight[:, None]) + motion.root[after] * weight[:, None]
-    rotations = motion.rotations[before]
     if weight.max(initial=0) > 1e-6:  # between frames: spherical interpolation; otherwise frames are just picked
-        quaternions = matrix_to_quaternion(motion.rotations)
-        between = slerp(quaternions[before], quaternions[after], weight[:, None])
-        rotations = quaternion_to_matrix(between).astype(np.float32)
+        quaternions = by_batches(matrix_to_quaternion, motion.rotations)
+        rotations = by_batches(lambda *rows: _between(quaternions, *rows), before, after, weight)
+    else:
+        rotations = by_batches(lambda rows: motion.rotations[rows], before)
     return replace(motion, rotations=rotations, root=root, fps=fps)
+
+
+def _between(quaternions: Array, before: Array, after: Array, weight: Array) -> FloatArray:
+    """Rotations between those of two rows of frames."""
+    found = slerp(quaternions[before], quaternions[after], weight[:, None])
+    return quaternion_to_matrix(found).astype(np.float32)
 
 
 def mirror(motion: Clip) -> Clip:
     """Reflect about x = 0: ``R' = M R M`` of the opposite joint, with ``M = diag(-1, 1, 1)``."""
     partners = list(motion.skeleton.mirrored_joints)
-    rotations = np.asarray(_MIRROR @ motion.rotations[:, partners] @ _MIRROR, dtype=np.float32)
+    rotations = by_batches(lambda rows: _MIRROR @ rows[:, partners] @ _MIRROR, motion.rotations)
     return replace(motion, rotations=rotations, root=motion.root @ _MIRROR)
 
 
 def turned(motion: Clip, yaw: float) -> Clip:
     """Turn about the vertical axis through the world's origin by ``yaw`` radians."""
     turn = axis_rotation("Y", np.float32(yaw)).astype(np.float32)
-    rotations = motion.rotations.copy()
+    rotations = by_batches(np.copy, motion.rotations)
     rotations[:, 0] = turn @ rotations[:, 0]
     return replace(motion, rotations=rotations, root=motion.root @ turn.T)
 

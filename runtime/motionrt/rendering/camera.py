@@ -8,6 +8,8 @@ import numpy as np
 import numpy.typing as npt
 
 from motionrt.errors import InvalidInputError
+from motionrt.untrusted.arguments import real
+from motionrt.untrusted.words import shown
 
 Floats = npt.NDArray[np.float32]
 CAMERAS = {"front": 0.0, "three-quarter": 40.0, "side": 90.0, "back": 180.0, "left": -90.0, "top": 0.0}
@@ -88,11 +90,11 @@ def checked_camera(camera: str | float) -> str | float:
     if isinstance(camera, str) and camera in CAMERAS:
         return camera
     try:
-        degrees = float(camera)
-    except (TypeError, ValueError):
+        degrees = float(camera) if isinstance(camera, str) else real(camera)
+    except ValueError:
         degrees = np.nan
     if not np.isfinite(degrees):
-        raise InvalidInputError(f"no camera '{camera}': {', '.join(CAMERAS)}, or degrees from the front")
+        raise InvalidInputError(f"no camera {shown(camera)}: {', '.join(CAMERAS)}, or degrees from the front")
     return degrees
 
 

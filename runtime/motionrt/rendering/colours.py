@@ -10,6 +10,8 @@ import numpy as np
 
 from motionrt.errors import InvalidInputError
 from motionrt.motion.skeleton import FloatArray
+from motionrt.untrusted.arguments import checked_mapping
+from motionrt.untrusted.words import shown
 
 
 @dataclass(frozen=True)
@@ -69,8 +71,9 @@ def chosen(theme: str, changes: Mapping[str, str] | None) -> Colours:
     Raises:
         InvalidInputError: no such theme, or no such colour; the message lists those there are.
     """
-    if theme not in THEMES:
-        raise InvalidInputError(f"no theme '{theme}': {', '.join(THEMES)}")
+    if not isinstance(theme, str) or theme not in THEMES:
+        raise InvalidInputError(f"no theme {shown(theme)}: {', '.join(THEMES)}")
+    changes = checked_mapping(changes, "colours", "{'left': '#00aa55'}")
     known = [field.name for field in fields(Colours)]
     for name in changes or {}:
         if name not in known:

@@ -14,6 +14,7 @@ from motionrt.rendering.pillow import ffmpeg, pillow
 from motionrt.rendering.places import places
 from motionrt.rendering.strip import filmstrip
 from motionrt.rendering.takes import TakeLike, takes_of
+from motionrt.untrusted.files import as_path
 
 GIF_FPS, VIDEO_FPS = 20.0, 30.0
 
@@ -86,7 +87,7 @@ def render_as(
     given: TakeLike | Sequence[TakeLike], out: str | Path, look: Look, captions: str | Sequence[str] | None = None
 ) -> Path:
     """As :func:`render`, with all that can be chosen in one value."""
-    path = Path(out)
+    path = as_path(out)
     suffix = path.suffix.lower()
     if suffix not in (*PICTURES, *FILMS):
         raise InvalidInputError(f"{path}: a file '{suffix}' cannot be drawn; can be: {', '.join((*PICTURES, *FILMS))}")

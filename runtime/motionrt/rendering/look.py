@@ -11,6 +11,8 @@ from typing import Literal
 from motionrt.errors import InvalidInputError
 from motionrt.rendering.camera import checked_camera
 from motionrt.rendering.colours import Colours, chosen
+from motionrt.untrusted.arguments import check_flags, checked_whole, real
+from motionrt.untrusted.words import shown
 
 Layout = Literal["strip", "path"]
 LAYOUTS: tuple[Layout, ...] = ("strip", "path")
@@ -62,13 +64,21 @@ class Look:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "camera", checked_camera("three-quarter" if self.camera is None else self.camera))
-        _require(self.elevation is None or -5 <= self.elevation <= 90, "elevation: -5 to 90 degrees", self.elevation)
-        _require(self.layout in LAYOUTS, f"layout: {' or '.join(LAYOUTS)}", self.layout)
-        _require(self.poses is None or 1 <= self.poses <= MAX_POSES, f"poses: 1 to {MAX_POSES}", self.poses)
-        _require(self.columns is None or self.columns >= 1, "columns: at least 1", self.columns)
-        _require(self.fps is None or (math.isfinite(self.fps) and 1 <= self.fps <= 120), "fps: 1 to 120", self.fps)
+        check_flags(grid=self.grid, shadow=self.shadow, times=self.times, trails=self.trails)
+        if self.follow is not None:
+            check_flags(follow=self.follow)
+        for name, most in (("poses", MAX_POSES), ("columns", math.inf)):
+            if getattr(self, name) is not None:
+                checked_whole(getattr(self, name), name, 1, most)
+        elevated = self.elevation is None or -5 <= real(self.elevation) <= 90
+        _require(elevated, "elevation: -5 to 90 degrees", self.elevation)
+        _require(
+            isinstance(self.layout, str) and self.layout in LAYOUTS, f"layout: {' or '.join(LAYOUTS)}", self.layout
+        )
+        _require(self.fps is None or 1 <= real(self.fps) <= 120, "fps: 1 to 120", self.fps)
         if self.size is not None:
-            wide, high = self.size
+            _require(isinstance(self.size, tuple | list) and len(self.size) == 2, "size: (width, height)", self.size)
+            wide, high = (checked_whole(side, "size") for side in self.size)
             _require(MIN_SIDE <= wide <= MAX_SIDE and (high == 0 or MIN_SIDE <= high <= MAX_SIDE),
                      f"size: {MIN_SIDE} to {MAX_SIDE} pixels each", self.size)  # fmt: skip
         _ = self.palette
@@ -86,4 +96,4 @@ class Look:
 
 def _require(fine: bool, expected: str, value: object) -> None:
     if not fine:
-        raise InvalidInputError(f"{expected}; not {value}")
+        raise InvalidInputError(f"{expected}; not {shown(value)}")

@@ -13,6 +13,7 @@ from motionrt.errors import InvalidInputError
 from motionrt.formats import load_motion
 from motionrt.motion.motion import Motion
 from motionrt.motion.skeleton import FloatArray
+from motionrt.untrusted.arguments import check_kind, listed
 
 _LEAD_S = 2.0  # a keypoint is shown that long before it is met
 
@@ -136,7 +137,10 @@ def takes_of(given: TakeLike | Sequence[TakeLike], captions: str | Sequence[str]
     """
     several = isinstance(given, Sequence) and not isinstance(given, str)
     many: list[Any] = list(given) if several else [given]  # type: ignore[arg-type]
-    names = [captions] if isinstance(captions, str) else captions
+    given_names = [captions] if isinstance(captions, str) else captions
+    names = None if given_names is None else listed(given_names, "captions", "texts")
+    for name in names or ():
+        check_kind(name, str | None, "each of captions", "a text")
     if not many or (names is not None and len(names) != len(many)):
         raise InvalidInputError(
             f"give at least one motion, and one caption for each: {len(names or ())} for {len(many)}"

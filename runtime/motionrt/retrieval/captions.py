@@ -12,6 +12,7 @@ import numpy as np
 from motionrt.errors import FormatError, InvalidInputError
 from motionrt.formats.atomic import write_atomically
 from motionrt.motion.skeleton import FloatArray
+from motionrt.untrusted.arguments import listed
 from motionrt.untrusted.files import as_path, read_utf8
 from motionrt.untrusted.npz import read_arrays
 
@@ -81,7 +82,8 @@ def read_captions(path: str | Path) -> list[str]:
 
 
 def checked_captions(captions: Sequence[str]) -> tuple[str, ...]:
-    """A caption list as a tuple; InvalidInputError when it is empty or a single string."""
-    if isinstance(captions, str) or not captions or not all(isinstance(text, str) for text in captions):
+    """A caption list as a tuple; InvalidInputError when it is empty or holds anything but texts."""
+    texts = listed(captions, "captions", "texts")
+    if not texts or not all(isinstance(text, str) for text in texts):
         raise InvalidInputError("captions must be a list with at least one text")
-    return tuple(captions)
+    return tuple(texts)

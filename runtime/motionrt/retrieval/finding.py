@@ -17,6 +17,7 @@ from motionrt.retrieval.scores import IntArray, scores
 from motionrt.retrieval.search import Hit, checked_k
 from motionrt.retrieval.vocabulary import unknown_words
 from motionrt.text import agreements, parse_query
+from motionrt.untrusted.arguments import check_flags, check_kind
 
 if TYPE_CHECKING:
     from motionrt.retrieval.gallery import Gallery
@@ -68,6 +69,12 @@ class Search:
     weights: Weights = DEFAULT
     filter: Filter = EVERYTHING
     anyway: bool = False
+
+    def __post_init__(self) -> None:
+        checked_k(self.k)
+        check_flags(per_clip=self.per_clip, approximate=self.approximate, anyway=self.anyway)
+        check_kind(self.weights, Weights, "weights", "a motionrt.retrieval.Weights")
+        check_kind(self.filter, Filter, "filter", "a motionrt.retrieval.Filter")
 
 
 def find(gallery: Gallery, text: str, query: FloatArray, search: Search) -> Hits:

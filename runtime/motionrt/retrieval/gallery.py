@@ -23,6 +23,7 @@ from motionrt.retrieval.scores import IntArray
 from motionrt.retrieval.search import ExactIndex, Hit, checked_k, nearest_per_group
 from motionrt.retrieval.windows import MotionEmbedder, embed_windows, measured, motion_features, spans_in_seconds
 from motionrt.retrieval.words import WordIndex
+from motionrt.untrusted.arguments import check_flags, check_kind, checked_array, checked_whole, listed
 from motionrt.untrusted.files import as_path
 from motionrt.untrusted.words import shown
 
@@ -94,6 +95,15 @@ class Gallery(Contents):
             texts: what each shows.
             store_motions: carry the motions inside the gallery, so that hits can be saved anywhere.
         """
+        motions, ids = listed(motions, "motions", "Motions"), listed(ids, "ids", "texts")
+        texts = None if texts is None else listed(texts, "texts", "texts")
+        check_flags(store_motions=store_motions)
+        for motion in motions:
+            check_kind(motion, Motion, "each of motions", "a Motion")
+        for name in (*ids, *(texts or ())):
+            check_kind(name, str, "each of ids and texts", "a str")
+        if not callable(getattr(model, "embed_motion", None)):
+            raise InvalidInputError(f"model must embed motions, as Runtime.model does, not {shown(model)}")
         if not motions or len(set(ids)) != len(motions) or len(texts or ids) != len(ids):
             raise InvalidInputError("a gallery needs motions, and as many different ids and texts")
         order = sorted(range(len(ids)), key=lambda i: ids[i])
@@ -115,7 +125,7 @@ class Gallery(Contents):
         Raises:
             GalleryError: the folder cannot be written, or another process is writing there.
         """
-        folder = Path(folder)
+        folder = as_path(folder)
         with writing(folder):
             layout.save(self, folder)
         return Gallery.open(folder)
@@ -127,6 +137,7 @@ class Gallery(Contents):
 
     def check_model(self, fingerprint: str, name: str) -> None:
         """GalleryError unless the model with that fingerprint made this gallery."""
+        check_kind(fingerprint, str, "fingerprint", "a str")
         if fingerprint == self.model.fingerprint:
             return
         which = f"the gallery {self.folder}" if self.folder else "the gallery"
@@ -151,6 +162,7 @@ class Gallery(Contents):
             MissingDependencyError: ``approximate`` without the package that it needs.
         """
         k = checked_k(k)
+        check_flags(per_clip=per_clip, approximate=approximate)
         query = _as_query(query)
         if query.shape != self.embeddings.shape[1:]:
             raise InvalidInputError(f"a query is a vector of {self.embeddings.shape[1]}, not {query.shape}")
@@ -170,6 +182,7 @@ class Gallery(Contents):
         Raises:
             MissingDependencyError: ``approximate`` without the package that it needs.
         """
+        check_flags(approximate=approximate)
         (self._approximate if approximate else self._exact).prepare()
         return self
 
@@ -225,7 +238,8 @@ class Gallery(Contents):
             InvalidInputError: a query of another shape or not finite.
             MissingDependencyError: ``approximate`` without the package that it needs.
         """
-        query = _as_query(query)
+        check_flags(approximate=approximate)
+        count, query = checked_whole(count, "count", 1), _as_query(query)
         if query.shape != self.embeddings.shape[1:]:
             raise InvalidInputError(f"a query is a vector of {self.embeddings.shape[1]}, not {query.shape}")
         return (self._approximate if approximate else self._exact).nearest(query, count)[0]
@@ -271,7 +285,5 @@ class Gallery(Contents):
 
 
 def _as_query(query: object) -> FloatArray:
-    try:
-        return np.asarray(query, dtype=np.float32)
-    except (TypeError, ValueError) as error:
-        raise InvalidInputError(f"a query is a vector of numbers, not {shown(query)}") from error
+    with np.errstate(over="ignore"):  # infinity is refused by the search
+        return checked_array(query, "a query", "a vector of numbers").astype(np.float32)

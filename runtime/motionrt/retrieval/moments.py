@@ -13,6 +13,7 @@ from motionrt.metrics import temporal_iou
 from motionrt.motion.skeleton import FloatArray
 from motionrt.retrieval.search import checked_k
 from motionrt.retrieval.windows import FPS, MotionEmbedder, span_features
+from motionrt.untrusted.arguments import checked_whole, listed
 
 WINDOW_LENGTHS = (10, 20, 30, 40, 50, 60)
 STRIDE = 5
@@ -88,11 +89,12 @@ def pyramid(frames: int, lengths: Sequence[int] = WINDOW_LENGTHS, stride: int = 
 
     The last window of a length ends with the motion. A motion shorter than the shortest length is one window.
     """
-    if not lengths or min(lengths) < 1 or stride < 1:
+    wanted = {checked_whole(length, "a window's length", 1) for length in listed(lengths, "lengths", "frames")}
+    if not wanted or stride < 1:
         raise InvalidInputError("moments need window lengths and a stride of at least one frame")
     spans = [
         (start, start + length)
-        for length in sorted(set(lengths))
+        for length in sorted(wanted)
         if length <= frames
         for start in [*range(0, frames - length, stride), frames - length]
     ]

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from motionrt.errors import InvalidInputError, MotionRTError
 from motionrt.motion import Motion
+from motionrt.untrusted.files import as_path
 
 if TYPE_CHECKING:
     from motionrt.retrieval.gallery import Gallery
@@ -35,7 +36,7 @@ def save_hits(gallery: Gallery, hits: Sequence[Hit], folder: str | Path) -> list
         InvalidInputError: the folder cannot be made.
         MotionFileNotFoundError, FormatError: a clip's file is gone, or broken now.
     """
-    out = Path(folder)
+    out = as_path(folder)
     try:
         out.mkdir(parents=True, exist_ok=True)
     except OSError as error:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import operator
 import threading
 from dataclasses import dataclass
 from functools import partial
@@ -16,6 +15,8 @@ from motionrt.errors import InvalidInputError
 from motionrt.models.engine import Providers, checked_providers
 from motionrt.motion.skeleton import FloatArray
 from motionrt.retrieval.scores import IntArray, scores, top
+from motionrt.untrusted.arguments import checked_whole
+from motionrt.untrusted.words import shown
 
 if TYPE_CHECKING:
     from motionrt.retrieval.coded_scan import CodedScan
@@ -146,10 +147,7 @@ def nearest_per_group(
 
 def checked_k(k: int) -> int:
     """``k`` as a whole number of at least 1; InvalidInputError otherwise."""
-    try:
-        value = operator.index(k)
-    except TypeError:
-        raise InvalidInputError(f"k must be a whole number, not {k!r}") from None
-    if value < 1 or isinstance(k, bool):
-        raise InvalidInputError(f"k must be at least 1, not {k!r}")
+    value = checked_whole(k, "k")
+    if value < 1:
+        raise InvalidInputError(f"k must be at least 1, not {shown(k)}")
     return value

@@ -51,7 +51,7 @@ def _on_floor(motion: RigPose, axis: Array) -> bool:
 
 
 def sides_agree(motion: RigPose) -> bool:
-    """Whether the joints cast as left are on the anatomical left: toes point forward, knees bend backward.
+    """Whether the joints in the roles of left ones are on the anatomical left: toes point forward, knees bend backward.
 
     Raises:
         RigError: the sides are only guessed and the body gives no sign (no toes, and the knees never bend).

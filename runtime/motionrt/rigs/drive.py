@@ -19,7 +19,7 @@ _TRUNK, _NECK = ("pelvis", "spine1", "spine2", "spine3"), ("spine3", "neck", "he
 
 
 def drive(turned: Array, clip: RigClip, stance: Stance, local: FloatArray) -> Turned:
-    """Global rotations of the cast joints, Y up.
+    """Global rotations of the joints that have a role, Y up.
 
     Trunk and neck of any number of joints share the turns of ``smpl24`` evenly, limbs point exactly where its limbs
     point. Fingers, twist bones and all else is not in the result: it stays as it is against its parent.

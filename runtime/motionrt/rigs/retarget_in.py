@@ -32,6 +32,7 @@ from motionrt.rigs.roles import assign_roles
 from motionrt.rigs.stance import read_stance
 from motionrt.rigs.steady_trunk import with_steady_trunk
 from motionrt.rigs.tree import RigTree
+from motionrt.untrusted.arguments import check_kind, checked_mapping
 
 
 def to_smpl24(
@@ -56,8 +57,10 @@ def to_smpl24(
         RigError: the rig is no humanoid, or joints are missing or ambiguous; the message says which and what
             to do.
     """
-    own = as_own_motion(clip) if mapping is None else None
-    mapping = {**clip.known, **(mapping or {})} or None
+    check_kind(clip, RigClip, "clip", "a RigClip")
+    given = checked_mapping(mapping, "mapping")
+    own = as_own_motion(clip) if given is None else None
+    mapping = {**clip.known, **(given or {})} or None
     if own is not None:
         return own
     poses = [clip.rest_rotations()] if reference is None else [reference, clip.rest_rotations()]

@@ -25,6 +25,7 @@ from motionrt.rigs.root_motion import carry
 from motionrt.rigs.stance import Stance, read_stance
 from motionrt.rigs.target import Rig, RigMotion
 from motionrt.rigs.tree import RigTree
+from motionrt.untrusted.arguments import check_kind, checked_mapping
 
 VALUE_LIMIT = 20_000_000
 """Frames times joints at most: about 700 MB of rotations."""
@@ -59,11 +60,15 @@ def to_rig(
         RigError: the rig is no humanoid, has no known standing pose, or no joint that can travel; says what to do.
         InvalidInputError: another skeleton than ``smpl24``, or too many frames for so many joints.
     """
+    check_kind(motion, Motion, "motion", "a Motion")
+    check_kind(rig, Rig, "rig", "what load_target gave")
+    check_kind(root_motion, (bool, str), "root_motion", "True, False or the name of a joint")
+    given = checked_mapping(mapping, "mapping")
     if motion.skeleton != SMPL24:
         raise InvalidInputError("only motions of the smpl24 skeleton can be retargeted")
     if motion.frames * len(rig.clip.names) > VALUE_LIMIT:
         raise InvalidInputError(f"{motion.frames} frames of {len(rig.clip.names)} joints are too many; cut the motion")
-    mapping = {**rig.clip.known, **(mapping or {})} or None
+    mapping = {**rig.clip.known, **(given or {})} or None
     stance = read_stance(rig.clip, mapping, rig.poses)
     off = [name for name in ("left_ankle", "right_ankle") if not _hangs(rig.clip, stance, name)]
     if off:

@@ -20,7 +20,7 @@ REQUIRED = tuple(f"{side}_{part}" for part in LEGS + ARMS for side in ("left", "
 
 @dataclass(frozen=True)
 class RigRoles:
-    """The cast of a rig.
+    """Which joint of a rig has which role.
 
     Attributes:
         joints: ``smpl24`` role -> joint index; ``REQUIRED`` and ``pelvis`` are always there.
@@ -35,7 +35,7 @@ class RigRoles:
     sided: bool
 
     def swapped(self) -> RigRoles:
-        """The same cast with left and right exchanged."""
+        """The same roles with left and right exchanged."""
         return RigRoles(_swapped(self.joints), self.spine, self.neck, True)
 
     def swapped_arms(self) -> RigRoles:

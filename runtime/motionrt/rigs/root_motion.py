@@ -1,4 +1,4 @@
-"""From global rotations of the cast joints to the local ones of the whole rig, and which joint carries the travel."""
+"""From global rotations of the joints with a role to the local ones of the whole rig, and which joint travels."""
 
 from __future__ import annotations
 
@@ -24,11 +24,11 @@ def carry(
 
     Args:
         motion: the source.
-        turned: global rotations of the cast joints, Y up.
+        turned: global rotations of the joints that have a role, Y up.
         pelvis: ``(F, 3)`` where the pelvis joint shall be, Y up, units of the rig.
         rig: the target.
         stance: what is known of it.
-        local: ``(J, 3, 3)`` local rotations of joints that are not cast.
+        local: ``(J, 3, 3)`` local rotations of joints that have no role.
         root_motion: as for :func:`motionrt.rigs.retarget_out.to_rig`.
     """
     to_file, pose = stance.to_world.T, _Pose(rig, local, motion.frames)

@@ -32,7 +32,7 @@ class Stance:
         roles: which joint plays which role of ``smpl24``.
         motion: all frames of its clip, in the file's axes.
         local: ``(J, 3, 3)`` local rotations of the standing pose; ``None`` where none is known.
-        alignments: rotation of each cast joint against its counterpart in ``smpl24``.
+        alignments: rotation of each joint that has a role against its counterpart in ``smpl24``.
         to_world: ``(3, 3)``, from the file's axes to Y up.
     """
 

@@ -9,6 +9,8 @@ from typing import Protocol
 
 from motionrt.motion.skeleton import FloatArray
 from motionrt.rigs.clip import RigClip
+from motionrt.untrusted.arguments import check_flags, check_kind
+from motionrt.untrusted.files import as_path
 
 
 class RigFile(Protocol):
@@ -96,4 +98,6 @@ class RigMotion:
         Raises:
             InvalidInputError: another suffix, options that do not apply, or the file cannot be written.
         """
-        return self.rig.file.save(self, Path(path), units=units, t_pose=t_pose)
+        check_flags(t_pose=t_pose)
+        check_kind(units, str | None, "units", "the name of a unit")
+        return self.rig.file.save(self, as_path(path), units=units, t_pose=t_pose)

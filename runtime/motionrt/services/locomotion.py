@@ -123,8 +123,10 @@ class Locomotion(Service):
         from motionrt.errors import InvalidInputError
         from motionrt.locomotion.path_following import Pace
         from motionrt.locomotion.walk import run_walks, walk_request
+        from motionrt.untrusted.arguments import listed
 
-        begins = list(starts) if starts is not None else [None] * len(paths)
+        paths = listed(paths, "paths", "paths")
+        begins = listed(starts, "starts", "starts") if starts is not None else [None] * len(paths)
         if not paths or len(begins) != len(paths):
             raise InvalidInputError(f"give at least one path and a start for each: {len(begins)} for {len(paths)}")
         asked = [walk_request(start, path=path) for start, path in zip(begins, paths, strict=True)]
@@ -228,14 +230,16 @@ class Locomotion(Service):
         from motionrt.locomotion.arguments import as_cloud, as_scene, as_start
         from motionrt.locomotion.path_following import Pace
         from motionrt.locomotion.performing import Performer
+        from motionrt.untrusted.arguments import check_functions, checked_whole
 
+        check_functions(progress=progress)
         performer = Performer(
             self.character_models,
             as_start(start),
             as_scene(scene),
             cloud=as_cloud(cloud),
             pace=Pace(speed=speed),
-            seed=seed or 0,
+            seed=0 if seed is None else checked_whole(seed, "seed", 0),
             progress=progress,
         )
         return performer.perform(actions, stop=stop, foot_lock=foot_lock)

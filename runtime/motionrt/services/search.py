@@ -4,16 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from functools import cached_property, partial
+from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, overload
 
 import numpy as np
 
 from motionrt.errors import GalleryNotFoundError, InvalidInputError
+from motionrt.models.text import checked_text
 from motionrt.models.tmr import TextMotionModel
 from motionrt.motion import Motion
 from motionrt.motion.skeleton import FloatArray
 from motionrt.services.service import Service
+from motionrt.untrusted.arguments import check_functions, check_kind, listed
+from motionrt.untrusted.files import as_path
 
 if TYPE_CHECKING:  # embedding a text, the shortest way to an answer, waits for none of these
     from motionrt.retrieval import BuildReport, Description, EmbeddedCaptions, Gallery, Moments, Progress
@@ -114,7 +118,8 @@ class Search(Service):
         self.model.prepare()
         opened = self.gallery(gallery)
         opened.check_model(self.model.fingerprint, self.model.name)
-        search = Search(k, per_clip, approximate, weights or DEFAULT, filter or EVERYTHING, anyway)
+        ranked, allowed = DEFAULT if weights is None else weights, EVERYTHING if filter is None else filter
+        search = Search(k, per_clip, approximate, ranked, allowed, anyway)
         texts = _texts(text)
         embedded = zip(texts, self.model.embed_text(texts), strict=True)
         hits = [find(opened, one, query, search) for one, query in embedded]
@@ -130,6 +135,7 @@ class Search(Service):
         """
         from motionrt.retrieval.likeness import similar
 
+        _check_motion(motion)
         opened = self.gallery(gallery)
         opened.check_model(self.model.fingerprint, self.model.name)
         own = next((clip.id for clip in opened.clips if clip.id == motion or opened.path(clip) == motion), None)
@@ -144,7 +150,7 @@ class Search(Service):
 
         if isinstance(gallery, Gallery):
             return gallery
-        folder = _starter() if gallery is None else locate(Path(gallery))
+        folder = _starter() if gallery is None else locate(as_path(gallery))
         changed = (folder / GALLERY_FILE).stat().st_mtime_ns
         if self._galleries.get(folder, (None,))[0] != changed:
             self._galleries[folder] = changed, Gallery.open(folder, providers=self._providers)
@@ -188,7 +194,7 @@ class Search(Service):
         """
         from motionrt.retrieval import WINDOW_LENGTHS, find_moments, motion_features
 
-        query, chosen = self.embed_text(text), WINDOW_LENGTHS if lengths is None else lengths
+        query, chosen = self.embed_text(checked_text(text)), WINDOW_LENGTHS if lengths is None else lengths
         return find_moments(query, motion_features(_loaded(motion)), self.model, k, lengths=chosen)
 
     def embed_text(self, text: str | Sequence[str]) -> FloatArray:
@@ -207,11 +213,12 @@ class Search(Service):
         """
         from motionrt.retrieval import embed_whole, motion_features
 
-        if isinstance(motion, Motion | str | Path):
+        if isinstance(motion, Motion | str | PathLike):
             return embed_whole(self.model, motion_features(_loaded(motion)))
-        if not motion:
+        motions = listed(motion, "motion", "motions or files")
+        if not motions:
             raise InvalidInputError("embed_motion needs at least one motion")
-        return np.stack([self.embed_motion(one) for one in motion])
+        return np.stack([embed_whole(self.model, motion_features(_loaded(one))) for one in motions])
 
     def build_gallery(
         self,
@@ -229,12 +236,14 @@ class Search(Service):
         """
         from motionrt.retrieval import build_gallery
 
+        check_functions(progress=progress)
         return build_gallery(folder, self._opener(), out=out, jobs=jobs, mapping=mapping, progress=progress)
 
     def update_gallery(self, gallery: str | Path, *, jobs: int = 1, progress: Progress | None = None) -> BuildReport:
         """Index what is new or changed, drop what is gone; see :func:`motionrt.retrieval.update_gallery`."""
         from motionrt.retrieval import update_gallery
 
+        check_functions(progress=progress)
         return update_gallery(gallery, self._opener(), jobs=jobs, progress=progress)
 
     def _opener(self) -> partial[TextMotionModel]:
@@ -254,13 +263,18 @@ def _starter() -> Path:
 
 
 def _texts(text: str | Sequence[str]) -> list[str]:
-    texts = [text] if isinstance(text, str) else list(text)
+    texts = [text] if isinstance(text, str) else listed(text, "text", "texts")
     if not texts:
         raise InvalidInputError("give at least one text")
     return texts
 
 
+def _check_motion(motion: object) -> None:
+    check_kind(motion, (Motion, str, PathLike), "motion", "a Motion or a file")
+
+
 def _loaded(motion: MotionLike) -> Motion:
     from motionrt.formats import load_motion
 
+    _check_motion(motion)
     return motion if isinstance(motion, Motion) else load_motion(motion)

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 
 from motionrt.models.engine import Providers, checked_providers
 from motionrt.models.sessions import Sessions
+from motionrt.untrusted.arguments import check_kind, checked_whole
+from motionrt.untrusted.files import as_path
 
 if TYPE_CHECKING:
     from onnxruntime import SessionOptions
@@ -43,6 +45,12 @@ class Service:
         providers: Providers | None = None,
         text_tower: str | None = None,
     ) -> None:
+        if threads is not None:
+            checked_whole(threads, "threads", 1)
+        check_kind(variant, str | None, "variant", "a name, as in 'fp32'")
+        check_kind(text_tower, str | None, "text_tower", "'small' or 'full'")
+        if models is not None:
+            as_path(models)
         self._models = models
         self._threads = threads
         self._session_options = session_options

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, overload
 
@@ -197,6 +197,7 @@ class Synthesis(Service):
         from motionrt.errors import InvalidInputError
         from motionrt.synthesis.asking import Asked
         from motionrt.synthesis.sampling import Sampling
+        from motionrt.untrusted.arguments import listed
 
         how = Sampling(seconds, seed, 1 if n is None else n, temperature, sampler, guidance, steps, foot_lock)
         asked = Asked(how, constraints, loop, in_place, candidates)
@@ -207,9 +208,10 @@ class Synthesis(Service):
             lines = asked.lines(one, self.body_parts)
             found = asked.answer(lines, self.generator, self._likeness)
             return found[0] if n is None else found
-        if not isinstance(text, Iterable) or not text:
-            raise InvalidInputError(f"give at least one text, not {text!r}")
-        many = [asked.answer(asked.lines(each, self.body_parts), self.generator, self._likeness) for each in text]
+        texts = listed(text, "text", "texts")
+        if not texts:
+            raise InvalidInputError("give at least one text")
+        many = [asked.answer(asked.lines(each, self.body_parts), self.generator, self._likeness) for each in texts]
         return [motions[0] for motions in many] if n is None else many
 
     def converse(
@@ -328,7 +330,9 @@ class Synthesis(Service):
         """
         from motionrt.synthesis.composing import compose
         from motionrt.synthesis.layering import joined
+        from motionrt.untrusted.arguments import check_flags
 
+        check_flags(joint=joint)
         if joint:
             text = joined(given, parts, masks)
             length = SECONDS if seconds is None else seconds

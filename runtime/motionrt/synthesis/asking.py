@@ -12,8 +12,9 @@ from motionrt.synthesis.choosing import Likeness, best
 from motionrt.synthesis.constraints import Constraints
 from motionrt.synthesis.generating import Generator
 from motionrt.synthesis.motion_generator import Wanted
-from motionrt.synthesis.sampling import Sampling, checked_whole
+from motionrt.synthesis.sampling import Sampling
 from motionrt.synthesis.timeline import Item, Line, read_timeline
+from motionrt.untrusted.arguments import checked_whole
 
 MOST_CANDIDATES = 64
 

@@ -33,10 +33,13 @@ class Words:
     Attributes:
         features: of the sentence encoder.
         slots: ``(S,)`` classes of what it says.
+        numbers, known: ``(A,)`` what it stands for in numbers, and which of them it says.
     """
 
     features: SentenceFeatures
     slots: npt.NDArray[np.int64]
+    numbers: FloatArray = field(default_factory=lambda: np.zeros(len(TARGETS), np.float32))
+    known: BoolArray = field(default_factory=lambda: np.zeros(len(TARGETS), bool))
 
 
 @dataclass(frozen=True, eq=False)
@@ -140,6 +143,6 @@ def _estimate(
 def _told(words: Words, held: Held, places: npt.NDArray[np.intp]) -> Told:
     return Told(
         words.features.token_features, words.features.attention_mask, words.slots[None],
-        np.zeros((1, len(TARGETS)), np.float32), np.zeros((1, len(TARGETS)), bool),
+        words.numbers[None], words.known[None],
         held.motion[None, places], held.parts[None, places],
     )  # fmt: skip

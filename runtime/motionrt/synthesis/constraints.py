@@ -19,7 +19,7 @@ from motionrt.motion.body_parts import PARTS, checked_parts
 from motionrt.motion.features import ego77
 from motionrt.motion.skeleton import SMPL24
 from motionrt.synthesis.canvas import OWNERS, Held
-from motionrt.synthesis.sampling import checked_number
+from motionrt.untrusted.arguments import checked_number
 
 GRID_S = 0.1
 LONGEST_S = 600.0

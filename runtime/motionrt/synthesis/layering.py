@@ -14,6 +14,7 @@ from motionrt.motion import Motion
 from motionrt.synthesis.composing.alignment import frames_of
 from motionrt.synthesis.composing.layers import Derive, Layer, given_parts
 from motionrt.synthesis.sampling import LONGEST_S, SECONDS, SHORTEST_S
+from motionrt.untrusted.words import shown
 
 LayerLike = Layer | Motion | str | Path
 Names = str | Iterable[str] | None  # of parts, or of parts and joints
@@ -101,7 +102,9 @@ def joined(
 
 def _check(given: Sequence[LayerLike]) -> None:
     if isinstance(given, str | bytes) or not isinstance(given, Sequence) or len(given) < 2:
-        raise InvalidInputError(f"a composition needs a list of two motions, files or texts, or more, not {given!r}")
+        raise InvalidInputError(
+            f"a composition needs a list of two motions, files or texts, or more, not {shown(given)}"
+        )
 
 
 def _opened(given: LayerLike) -> Layer | Motion | str:
@@ -110,7 +113,7 @@ def _opened(given: LayerLike) -> Layer | Motion | str:
     if isinstance(given, str) and is_text(given):
         return checked_text(given)
     if not isinstance(given, str | PathLike):
-        raise InvalidInputError(f"a layer is a Motion, a motion file, a text or a Layer, not {given!r}")
+        raise InvalidInputError(f"a layer is a Motion, a motion file, a text or a Layer, not {shown(given)}")
     return load_motion(given)
 
 

@@ -118,7 +118,7 @@ class MotionGenerator:
     def features(self, canvas: Canvas, sampling: Sampling, number: int = 0) -> FloatArray:
         """Raw ``ego77`` ``(F, 77)`` at 20 fps of sample ``number``."""
         noise = sampling.noise(number, canvas.frames * ego77.WIDTH).reshape(canvas.frames, ego77.WIDTH)
-        return draw(self.denoiser, canvas, noise, sampling.calls, (sampling.way_weight, sampling.weight))
+        return draw(self.denoiser, canvas, noise, sampling.calls, (sampling.turn_weight, sampling.weight))
 
     def _motion(self, wanted: Wanted, canvas: Canvas, sampling: Sampling, number: int) -> Motion:
         features = self.features(canvas, sampling, number)

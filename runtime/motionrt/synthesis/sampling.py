@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, field, replace
-from typing import Any
 
 import numpy as np
 
@@ -12,6 +10,8 @@ from motionrt.errors import InvalidInputError
 from motionrt.limits import limits
 from motionrt.models.text import FloatArray
 from motionrt.motion.features import sinc135
+from motionrt.untrusted.arguments import check_flags, checked_number, checked_whole
+from motionrt.untrusted.words import shown
 
 SAMPLERS = ("motion", "diffusion", "vae")
 DEFAULT_SAMPLER = "motion"
@@ -19,11 +19,7 @@ SECONDS = 4.0
 SHORTEST_S = 0.5
 LONGEST_S = {"motion": 10.0, "diffusion": 8.0, "vae": 8.0}  # what the models were trained on
 GUIDANCE, STEPS = 4.0, 10  # of latent diffusion
-POSE_GUIDANCE, WAY_GUIDANCE, MOTION_STEPS = (
-    2.5,
-    2.0,
-    12,
-)  # of diffusion in motion space; the way wants less than the pose
+POSE_GUIDANCE, TURN_GUIDANCE, MOTION_STEPS = 4.0, 1.3, 12  # of diffusion in motion space; turns want little of it
 MOST_STEPS = 1000
 MOST_TEMPERATURE, MOST_GUIDANCE = 10.0, 100.0  # far beyond all that still looks like a motion
 
@@ -59,8 +55,8 @@ class Sampling:
     frames: int = field(init=False)
 
     def __post_init__(self) -> None:
-        if self.sampler not in SAMPLERS:
-            raise InvalidInputError(f"unknown sampler {self.sampler!r}; choose one of: {', '.join(SAMPLERS)}")
+        if not isinstance(self.sampler, str) or self.sampler not in SAMPLERS:
+            raise InvalidInputError(f"unknown sampler {shown(self.sampler)}; choose one of: {', '.join(SAMPLERS)}")
         _set(self, "seconds", checked_number(self.seconds, "seconds", SHORTEST_S, LONGEST_S[self.sampler]))
         _set(self, "frames", round(self.seconds * sinc135.FPS))
         _set(self, "temperature", checked_number(self.temperature, "temperature", 0.0, MOST_TEMPERATURE))
@@ -69,6 +65,7 @@ class Sampling:
         _set(self, "n", checked_whole(self.n, "n", 1, limits().motions))
         _set(self, "steps", checked_whole(_or(self.steps, steps), "steps", 1, MOST_STEPS))
         _set(self, "seed", fresh_seed() if self.seed is None else checked_whole(self.seed, "seed", 0))
+        check_flags(foot_lock=self.foot_lock)
 
     @property
     def weight(self) -> float:
@@ -76,9 +73,9 @@ class Sampling:
         return float(self.guidance or 0.0)
 
     @property
-    def way_weight(self) -> float:
-        """The guidance of the root's way in motion space: it grows with that of the pose, more slowly."""
-        return self.weight * WAY_GUIDANCE / POSE_GUIDANCE
+    def turn_weight(self) -> float:
+        """The guidance of the turn in motion space: as much as is meant is learnt already, more would turn too far."""
+        return 1 + (self.weight - 1) * (TURN_GUIDANCE - 1) / (POSE_GUIDANCE - 1)
 
     @property
     def calls(self) -> int:
@@ -106,25 +103,3 @@ def _or(value: Any, default: float) -> Any:
 
 def _set(sampling: Sampling, name: str, value: float) -> None:
     object.__setattr__(sampling, name, value)
-
-
-def checked_number(value: Any, name: str, least: float, most: float = math.inf) -> float:
-    """``value`` as a finite number in a range; InvalidInputError otherwise, which says the name and the range."""
-    try:
-        number = math.nan if isinstance(value, bool | str) else float(value)
-    except (TypeError, ValueError):
-        number = math.nan
-    if not (math.isfinite(number) and least <= number <= most):
-        raise InvalidInputError(f"{name} must be a number {_range(least, most)}, not {value!r}")
-    return number
-
-
-def checked_whole(value: Any, name: str, least: int, most: float = math.inf) -> int:
-    """``value`` as a whole number in a range; InvalidInputError otherwise, which says the name and the range."""
-    if isinstance(value, bool) or not isinstance(value, int | np.integer) or not least <= value <= most:
-        raise InvalidInputError(f"{name} must be a whole number {_range(least, most)}, not {value!r}")
-    return int(value)
-
-
-def _range(least: float, most: float) -> str:
-    return f"from {least:g}" if most == math.inf else f"from {least:g} to {most:g}"

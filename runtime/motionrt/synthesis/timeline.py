@@ -13,7 +13,8 @@ from motionrt.models.text import FloatArray, checked_text
 from motionrt.motion.body_parts import PARTS, checked_parts
 from motionrt.motion.features import ego77
 from motionrt.synthesis.canvas import Piece, Words
-from motionrt.synthesis.sampling import SECONDS, SHORTEST_S, checked_number
+from motionrt.synthesis.sampling import SECONDS, SHORTEST_S
+from motionrt.untrusted.arguments import checked_number
 
 LONGEST_S = 9.5  # of one text; the network knows 10 s, and neighbours overlap
 OVERLAP = 5  # frames at 20 fps on either side of a change over which texts pass into each other

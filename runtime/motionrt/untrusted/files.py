@@ -34,6 +34,10 @@ def as_path(path: object) -> Path:
     found = Path(path)
     if "\0" in str(found):
         raise InvalidInputError(f"no file is called {shown(str(found))}: it has a NUL in it")
+    try:
+        os.fsencode(found)
+    except UnicodeEncodeError as error:
+        raise InvalidInputError(f"no file is called {shown(str(found))}: it has half a character in it") from error
     return found
 
 

@@ -124,7 +124,7 @@ def test_a_failed_write_leaves_the_old_file_and_no_litter(
     def full(*_: object) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("motionrt.formats.atomic._put", full)
+    monkeypatch.setattr("pathlib.Path.replace", full)
     with pytest.raises(InvalidInputError, match="No space left"):
         standing().save(path)
     assert path.read_text(encoding="utf-8") == "precious"

@@ -68,12 +68,14 @@ def test_a_rig_that_is_no_humanoid_is_a_rig_error(tmp_path: Path) -> None:
         load_motion(write(tmp_path / "chain.bvh", BVH))
 
 
-def test_an_error_that_no_reader_foresaw_still_names_the_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def surprise(*_: object, **__: object) -> None:
+def test_a_mistake_in_a_reader_is_not_said_to_be_one_of_the_file(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def mistaken(*_: object, **__: object) -> None:
         raise IndexError("list index out of range")
 
-    monkeypatch.setattr("motionrt.formats.load.read_bvh", surprise)
-    with pytest.raises(FormatError, match=r"clip\.bvh: cannot be read \(IndexError"):
+    monkeypatch.setattr("motionrt.formats.load.read_bvh", mistaken)
+    with pytest.raises(IndexError):
         load_rig(write(tmp_path / "clip.bvh", BVH))
 
 

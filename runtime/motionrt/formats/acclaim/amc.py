@@ -14,6 +14,7 @@ from motionrt.formats.acclaim.asf_search import find_asf, find_fps
 from motionrt.formats.acclaim.rig import Values, build_rig
 from motionrt.formats.text import read_text, shorten, to_float, to_floats
 from motionrt.rigs.clip import RigClip
+from motionrt.untrusted.files import as_path
 
 _RATE = re.compile(r":(?:samples?[-_ ]?per[-_ ]?second|frames?[-_ ]?per[-_ ]?second|fps|frame[-_ ]?rate)[ \t:=]+(\S+)")
 
@@ -45,7 +46,7 @@ def read_amc(path: str | Path, asf: str | Path | None = None, *, fps: float | No
         MotionFileNotFoundError: the file is missing, or there is no skeleton for it.
         FormatError: either file is broken, or they do not belong together; names the line.
     """
-    path = Path(path)
+    path = as_path(path)
     body = _read_body(path)
     skeleton = find_asf(path) if asf is None else read_asf(asf)
     channels = _read_frames(body, skeleton, path)

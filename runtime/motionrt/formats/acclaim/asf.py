@@ -10,6 +10,7 @@ import numpy as np
 from motionrt.errors import FormatError
 from motionrt.formats.acclaim.asf_lines import AsfLine, Vector, blocks, sections
 from motionrt.formats.text import read_text, shorten, to_float
+from motionrt.untrusted.files import as_path
 
 _INCH = 0.0254
 _ROOT_CHANNELS = ("tx", "ty", "tz", "rx", "ry", "rz")
@@ -59,7 +60,7 @@ def read_asf(path: str | Path) -> AsfSkeleton:
         MotionFileNotFoundError: there is no such file.
         FormatError: it is not a whole ASF file; names the line.
     """
-    path = Path(path)
+    path = as_path(path)
     parts = sections(read_text(path), path)
     for name in ("root", "bonedata", "hierarchy"):
         if name not in parts:

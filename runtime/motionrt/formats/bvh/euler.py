@@ -7,6 +7,7 @@ from itertools import permutations
 import numpy as np
 import numpy.typing as npt
 
+from motionrt.motion.batches import by_batches
 from motionrt.motion.rotations import matrix_to_euler
 
 Angles = npt.NDArray[np.floating]
@@ -43,7 +44,7 @@ def euler_degrees(rotations: npt.NDArray[np.floating], order: str) -> Angles:
 
     A rotation has two: ``(a, b, c)`` and ``(a + 180, 180 - b, c + 180)``. Angles do not jump by whole turns.
     """
-    one = matrix_to_euler(rotations.astype(np.float64), order)
+    one = by_batches(lambda rows: matrix_to_euler(rows.astype(np.float64), order), rotations)
     two = one * [1, -1, 1] + np.pi
     stay, change = _apart(one[1:], one[:-1]), _apart(two[1:], one[:-1])
     second = np.concatenate([[False], np.logical_xor.accumulate(change < stay)]) if len(one) > 1 else np.zeros(1, bool)

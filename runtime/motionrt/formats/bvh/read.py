@@ -12,7 +12,9 @@ from motionrt.formats.bvh.hierarchy import BvhJoint, parse_hierarchy
 from motionrt.formats.bvh.rig import build_rig
 from motionrt.formats.bvh.values import Values, read_values
 from motionrt.formats.text import line_of, read_text, shorten
+from motionrt.motion.checks import checked_fps
 from motionrt.rigs.clip import RigClip
+from motionrt.untrusted.files import as_path
 
 FPS_RANGE = (1.0, 1000.0)
 """Frame rates outside of this range are taken for a mistake in the file."""
@@ -67,7 +69,7 @@ class BvhText:
 
 def parse_bvh(path: str | Path, *, fps: float | None = None) -> BvhText:
     """Text, joints and numbers of a BVH file; arguments and errors as for :func:`read_bvh`."""
-    path = Path(path)
+    path = as_path(path)
     text = _with_points(read_text(path))
     start = _MOTION.search(text)
     joints = parse_hierarchy(text[: start.start()] if start else text, path)
@@ -93,7 +95,7 @@ def _read_motion(
     frames = _frame_count(word, path, line_of(text, at))
     if fps is None or _TIME.match(text, at):
         word, at = _header_field(_TIME, "Frame Time:", text, at, path)
-    rate = float(fps) if fps is not None else _frame_rate(word, frames, path, line_of(text, at))
+    rate = checked_fps(fps) if fps is not None else _frame_rate(word, frames, path, line_of(text, at))
     values, notes = read_values(text, at, (frames, channels), path)
     return values, rate, notes
 

@@ -40,7 +40,7 @@ class BvhTarget:
             if joint.channels:
                 places = clip.translations[:, j] - (offsets[j] if j in relative else 0)
                 columns.append(_channels(joint, clip.rotations[:, j], places, self.path))
-        rows = value_rows(np.concatenate(columns, axis=1))
+        rows = value_rows(columns)
         head = [self.text.hierarchy.rstrip("\n"), "MOTION", f"Frames: {clip.frames}"]
         return "\n".join([*head, f"Frame Time: {1 / clip.fps:.10f}", *rows, ""]).encode("utf-8")
 

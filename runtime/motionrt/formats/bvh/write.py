@@ -2,22 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from itertools import chain
 from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
 
 from motionrt.errors import InvalidInputError
-from motionrt.formats.atomic import write_bytes
+from motionrt.formats.atomic import write_atomically
 from motionrt.formats.bvh.euler import channel_order, euler_degrees
 from motionrt.formats.tips import bone_tips
+from motionrt.motion.batches import by_batches
 from motionrt.motion.kinematics import fk
 from motionrt.motion.motion import Motion
 from motionrt.rigs.clip import RigClip
+from motionrt.untrusted.arguments import check_flags, check_kind, real
+from motionrt.untrusted.words import shown
 
 _POSITIONS = "Xposition Yposition Zposition"
+_BLOCK = 4096  # frames that are written at once
 _MOVES = 1e-5  # share of the rig's largest offset
 
 
@@ -41,8 +46,10 @@ def write_bvh(motion: Motion, path: str | Path, *, scale: float = 100.0, t_pose:
     Raises:
         InvalidInputError: ``scale`` is not positive, or the file cannot be written.
     """
-    if not (np.isfinite(scale) and scale > 0):
-        raise InvalidInputError(f"scale must be a positive number, not {scale}")
+    check_kind(motion, Motion, "motion", "a Motion")
+    check_flags(t_pose=t_pose)
+    if not 0 < real(scale) < np.inf:
+        raise InvalidInputError(f"scale must be a positive number, not {shown(scale)}")
     motion = _with_t_pose(motion) if t_pose else motion
     skeleton = motion.skeleton
     translations = np.repeat(skeleton.offsets[None], motion.frames, axis=0)
@@ -64,10 +71,9 @@ def write_rig_bvh(clip: RigClip, path: str | Path, *, scale: float = 1.0) -> Pat
     """
     clip = _without_rest(clip)
     writer = _Hierarchy(clip, scale, bone_tips(clip.names, clip.parents, clip.offsets))
-    lines = ["HIERARCHY", *writer.lines(0, ""), "MOTION", f"Frames: {clip.frames}"]
-    lines += [f"Frame Time: {1 / clip.fps:.10f}", *_rows(writer), ""]
-    content = "\n".join(lines).encode("utf-8")
-    return write_bytes(path, content)
+    head = ["HIERARCHY", *writer.lines(0, ""), "MOTION", f"Frames: {clip.frames}", f"Frame Time: {1 / clip.fps:.10f}"]
+    rows = value_rows(_columns(writer))
+    return write_atomically(path, lambda file: file.writelines(f"{line}\n".encode() for line in chain(head, rows)))
 
 
 class _Hierarchy:
@@ -110,7 +116,9 @@ def _end_site(offset: npt.NDArray[np.floating], indent: str) -> list[str]:
 
 def _moved(clip: RigClip) -> list[bool]:
     size = float(np.abs(clip.offsets).max(initial=1e-9))
-    away = np.abs(clip.translations - clip.offsets).max(axis=(0, 2)) > _MOVES * size
+    away = (
+        by_batches(lambda rows: np.abs(rows - clip.offsets).max(axis=2), clip.translations).max(axis=0) > _MOVES * size
+    )
     return [bool(moves) or parent < 0 for moves, parent in zip(away, clip.parents, strict=True)]
 
 
@@ -137,20 +145,23 @@ def _with_t_pose(motion: Motion) -> Motion:
     )
 
 
-def _rows(writer: _Hierarchy) -> list[str]:
+def _columns(writer: _Hierarchy) -> list[npt.NDArray[np.floating]]:
     columns: list[npt.NDArray[np.floating]] = []
     clip = writer.clip
     for joint in writer.order:
         if writer.moved[joint]:
             columns.append(clip.translations[:, joint].astype(np.float64) * writer.scale)
         columns.append(euler_degrees(clip.rotations[:, joint], writer.channels[joint]))
-    return value_rows(np.concatenate(columns, axis=1))
+    return columns
 
 
-def value_rows(table: npt.NDArray[np.floating]) -> list[str]:
-    """Lines of the MOTION part: ``(F, C)`` with six decimals."""
-    row = " ".join(["%.6f"] * table.shape[1])
-    return [row % tuple(values) for values in (np.round(table, 6) + 0.0).tolist()]
+def value_rows(columns: Sequence[npt.NDArray[np.floating]]) -> Iterator[str]:
+    """Lines of the MOTION part, with six decimals: columns ``(F, c)`` side by side, a block of frames at a time."""
+    row = " ".join(["%.6f"] * sum(column.shape[1] for column in columns))
+    for start in range(0, len(columns[0]), _BLOCK):
+        table = np.concatenate([column[start : start + _BLOCK] for column in columns], axis=1)
+        for values in (np.round(table, 6) + 0.0).tolist():
+            yield row % tuple(values)
 
 
 def _vector(values: npt.NDArray[np.floating]) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import base64
-import binascii
 from pathlib import Path
 from typing import Any
 from urllib.parse import unquote
@@ -13,7 +12,7 @@ import numpy.typing as npt
 
 from motionrt.errors import FormatError
 from motionrt.formats.gltf.container import Json
-from motionrt.limits import how_to_raise, limits
+from motionrt.untrusted.files import read_bytes
 
 _TYPES = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 _COMPONENTS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
@@ -48,6 +47,13 @@ class GlbArrays:
         if accessor not in self._known:
             self._known[accessor] = self._read(accessor, what)
         return self._known[accessor]
+
+    def matrices(self, accessor: int, what: str) -> npt.NDArray[np.float64]:
+        """Accessor of matrices ``(N, 4, 4)``; FormatError for any other."""
+        values = self.read(accessor, what)
+        if values.ndim != 3:
+            raise self._error(f"{what} is not made of matrices: the file is damaged")
+        return values
 
     def count(self, accessor: int, what: str) -> int:
         """How many elements an accessor says it has."""
@@ -116,21 +122,20 @@ class GlbArrays:
         if isinstance(uri, str) and uri.startswith("data:") and ";base64," in uri[:100]:
             try:
                 return base64.b64decode(uri.split(",", 1)[1], validate=True)
-            except binascii.Error as error:
+            except ValueError as error:  # binascii.Error is one
                 raise self._error(f"the data of {what} is not base64: {error}") from error
         return self._beside(str(uri), what)
 
     def _beside(self, uri: str, what: str) -> bytes:
         """A buffer in a file in or below the folder of the document; nothing else is opened."""
         folder = self._path.resolve().parent
-        place = (folder / unquote(uri)).resolve()
+        place = (folder / unquote(uri).replace("\0", "?")).resolve()
         if "://" in uri or not place.is_relative_to(folder):
             raise self._error(f"{what} lies in another file ('{uri[:60]}'); save everything in one .glb")
-        if not place.is_file():
-            raise self._error(f"{what} lies in '{uri[:60]}', which is not beside it; keep them together")
-        if place.stat().st_size > limits().file_bytes:
-            raise self._error(f"'{uri[:60]}' has {place.stat().st_size} bytes: {how_to_raise('file_bytes')}")
-        return place.read_bytes()
+        try:
+            return read_bytes(place, lambda reason, _: self._error(f"its file '{uri[:60]}' {reason}"))
+        except FileNotFoundError as error:
+            raise self._error(f"{what} lies in '{uri[:60]}', which is not beside it; keep them together") from error
 
     def _entry(self, key: str, index: object, what: str) -> Json:
         entries = self._document.get(key, [])

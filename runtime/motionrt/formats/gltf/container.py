@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, BinaryIO
 
 from motionrt.errors import FormatError
+from motionrt.formats.gltf.structure import misshapen
 from motionrt.formats.text import require_file
 from motionrt.limits import how_to_raise, limits
 from motionrt.untrusted import json_text
@@ -103,6 +104,8 @@ def _parse(text: bytes, path: Path) -> Json:
         raise FormatError(path, "its JSON is not a glTF document: it has no asset")
     if not str(document["asset"].get("version", "")).startswith("2."):
         raise FormatError(path, "is not glTF 2; save it again as glTF 2.0")
+    if (place := misshapen(document)) is not None:
+        raise FormatError(path, f"{place} is not as glTF has it: the file is damaged")
     return document
 
 

@@ -22,6 +22,7 @@ from motionrt.limits import how_to_raise, limits
 from motionrt.motion.rotations import Array, quaternion_to_matrix
 from motionrt.motion.skeleton import FloatArray
 from motionrt.rigs.clip import RigClip
+from motionrt.untrusted.files import as_path
 
 VALUE_LIMIT = 20_000_000
 """Frames times joints of a clip at most: about 700 MB of rotations."""
@@ -129,7 +130,7 @@ class GlbDocument:
 
 def open_glb(path: str | Path, skin: int | str | None = None) -> GlbDocument:
     """Read a GLB file and find its skeleton; errors as :func:`motionrt.formats.gltf.read.read_glb`."""
-    path = Path(path)
+    path = as_path(path)
     document, binary = read_container(path)
     tree = read_nodes(document, path)
     return GlbDocument(path, document, binary, tree, find_skeleton(document, tree, path, skin))

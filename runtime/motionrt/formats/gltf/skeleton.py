@@ -183,8 +183,8 @@ def inverse_binds(document: Json, arrays: GlbArrays, skeleton: GlbSkeleton) -> d
     for skin in document.get("skins", []):
         if "inverseBindMatrices" not in skin or not set(skin.get("joints", [])) & set(place):
             continue
-        matrices = arrays.read(skin["inverseBindMatrices"], "the bind pose")
+        matrices = arrays.matrices(skin["inverseBindMatrices"], "the bind pose")
         for node, matrix in zip(skin["joints"], matrices, strict=False):
             if node in place and abs(np.linalg.det(matrix[:3, :3])) > 1e-18:
-                out.setdefault(place[node], matrix)
+                out.setdefault(place[node], np.vstack([matrix[:3], (0, 0, 0, 1)]))
     return out

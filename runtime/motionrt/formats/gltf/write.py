@@ -17,6 +17,8 @@ from motionrt.motion.events import events
 from motionrt.motion.motion import Motion
 from motionrt.motion.rotations import matrix_to_quaternion
 from motionrt.rigs.clip import RigClip
+from motionrt.untrusted.arguments import check_kind
+from motionrt.untrusted.files import as_path
 
 GENERATOR = "motionrt"
 _COLOUR = [0.32, 0.52, 0.78, 1.0]
@@ -36,6 +38,7 @@ def write_glb(motion: Motion, path: str | Path) -> Path:
     Raises:
         InvalidInputError: the file cannot be written.
     """
+    check_kind(motion, Motion, "motion", "a Motion")
     return write_rig_glb(standing_clip(motion), path, extras={GENERATOR: events(motion)})
 
 
@@ -56,7 +59,7 @@ def write_rig_glb(clip: RigClip, path: str | Path, *, extras: Json | None = None
 
     ``extras``: what goes into the extras of the animation.
     """
-    path = Path(path)
+    path = as_path(path)
     document: Json = {
         "asset": {"version": "2.0", "generator": GENERATOR},
         "buffers": [{"byteLength": 0}],

@@ -15,6 +15,8 @@ from motionrt.locomotion.posing.search import Found, Search
 from motionrt.locomotion.posing.solution import PoseSolution, hover_cm, solution_of
 from motionrt.locomotion.posing.starting import best_starts
 from motionrt.locomotion.posing.targets import Targets, targets_of
+from motionrt.untrusted.arguments import real
+from motionrt.untrusted.words import shown
 
 TOLERANCE_CM = 5.0
 CLOSE_CM = 1.5  # a search that ends nearer than this is not repeated from another start
@@ -51,8 +53,8 @@ def solve_pose(
         InvalidInputError: no keypoint, an unknown joint, numbers that are not finite, a tolerance below 0.
         ReachError: a keypoint is missed by more than ``tolerance_cm``; says by how many centimetres each is.
     """
-    if not tolerance_cm >= 0:
-        raise InvalidInputError(f"tolerance_cm must be 0 or more, not {tolerance_cm}")
+    if not real(tolerance_cm) >= 0:
+        raise InvalidInputError(f"tolerance_cm must be 0 or more, not {shown(tolerance_cm)}")
     if starts < 1 or evaluations < 1:
         raise InvalidInputError("starts and evaluations must be 1 or more")
     targets = targets_of(keypoints, heading, floor)

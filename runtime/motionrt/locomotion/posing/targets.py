@@ -11,6 +11,8 @@ import numpy.typing as npt
 from motionrt.errors import InvalidInputError
 from motionrt.motion import SMPL24
 from motionrt.motion.skeleton import FloatArray
+from motionrt.untrusted.arguments import check_kind, checked_array, real
+from motionrt.untrusted.words import shown
 
 LEAST_STANCE = 0.05  # metres; feet nearer than this say nothing of where the body faces
 
@@ -69,21 +71,21 @@ def targets_of(
     Raises:
         InvalidInputError: no keypoint, an unknown joint, or anything that is not three finite numbers.
     """
+    check_kind(keypoints, Mapping, "keypoints", "like {'left_hand': (0.3, 1.2, 0.4)}")
     if not keypoints:
         raise InvalidInputError("give at least one keypoint, as in {'left_hand': (0.3, 1.2, 0.4)}")
     joints = tuple(SMPL24.index(name) for name in keypoints)
     points = np.stack([_point(name, value) for name, value in keypoints.items()])
     for name, number in (("heading", heading), ("floor", floor)):
-        if number is not None and not np.isfinite(number):
-            raise InvalidInputError(f"{name} must be a finite number or None, not {number}")
+        if number is not None and not np.isfinite(real(number)):
+            raise InvalidInputError(f"{name} must be a finite number or None, not {shown(number)}")
     return Targets(tuple(keypoints), joints, points, heading, floor)
 
 
 def _point(name: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
-    try:
-        point = np.asarray(value, dtype=np.float64)
-    except (TypeError, ValueError):
-        point = np.empty(0)
+    point = checked_array(value, f"keypoint '{name}'", "three finite numbers (x, y, z) in metres")
     if point.shape != (3,) or not np.isfinite(point).all():
-        raise InvalidInputError(f"keypoint '{name}' must be three finite numbers (x, y, z) in metres, not {value!r}")
+        raise InvalidInputError(
+            f"keypoint '{name}' must be three finite numbers (x, y, z) in metres, not {shown(value)}"
+        )
     return point

@@ -6,6 +6,8 @@ import math
 from dataclasses import dataclass
 
 from motionrt.errors import InvalidInputError
+from motionrt.untrusted.arguments import real
+from motionrt.untrusted.words import shown
 
 
 @dataclass(frozen=True)
@@ -32,9 +34,9 @@ class Agent:
     def __post_init__(self) -> None:
         for name in ("radius", "step_height", "head_room", "comfort"):
             value = getattr(self, name)
-            if not (math.isfinite(value) and value >= 0):
-                raise InvalidInputError(f"the agent's {name} must be a number of metres >= 0, not {value}")
-        if not 0 <= self.max_slope < 90:
-            raise InvalidInputError(f"the agent's max_slope must lie in [0, 90) degrees, not {self.max_slope}")
+            if not 0 <= real(value) < math.inf:
+                raise InvalidInputError(f"the agent's {name} must be a number of metres >= 0, not {shown(value)}")
+        if not 0 <= real(self.max_slope) < 90:
+            raise InvalidInputError(f"the agent's max_slope must lie in [0, 90) degrees, not {shown(self.max_slope)}")
         if self.head_room <= self.step_height:
             raise InvalidInputError("the agent's head_room must be larger than its step_height")

@@ -16,6 +16,8 @@ from motionrt.locomotion.scene.mesh import MeshArrays, UpAxis, read_triangles
 from motionrt.locomotion.scene.polygons import Polygons, draw_polygons
 from motionrt.locomotion.scene.ros_map import map_info, read_map
 from motionrt.locomotion.scene.surface import sample_surface
+from motionrt.untrusted.arguments import checked_array, real
+from motionrt.untrusted.words import shown
 
 MESH_CELL = 0.1
 
@@ -24,8 +26,8 @@ def flat_grid(walkable: BoolArray, origin: Points, cell: float, agent: Agent) ->
     """Ground at height 0."""
     if walkable.ndim != 2 or not walkable.size:
         raise InvalidInputError(f"walkable cells must have the shape (H, W), not {walkable.shape}")
-    if not (np.isfinite(cell) and cell > 0):
-        raise InvalidInputError(f"cell must be a positive number of metres, not {cell}")
+    if not 0 < real(cell) < np.inf:
+        raise InvalidInputError(f"cell must be a positive number of metres, not {shown(cell)}")
     if walkable.size > limits().cells:
         raise SceneError(f"{walkable.shape[1]} x {walkable.shape[0]} cells are too many: {how_to_raise('cells')}")
     return Grid(walkable, np.where(walkable, 0, np.nan).astype(np.float32), origin, cell, agent.radius)
@@ -64,7 +66,7 @@ def mesh_grid(
 
 
 def _start(start: npt.ArrayLike) -> Points:
-    place = np.asarray(start, dtype=np.float64)
+    place = checked_array(start, "start", "(x, z) or (x, y, z) in metres")
     if place.shape not in {(2,), (3,)} or not np.isfinite(place).all():
-        raise InvalidInputError(f"start must be (x, z) or (x, y, z) in metres, not {start!r}")
+        raise InvalidInputError(f"start must be (x, z) or (x, y, z) in metres, not {shown(start)}")
     return place

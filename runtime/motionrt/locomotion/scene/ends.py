@@ -10,6 +10,8 @@ import numpy.typing as npt
 from motionrt.errors import InvalidInputError, PathError
 from motionrt.locomotion.scene.grid import Grid, IntArray, Points
 from motionrt.locomotion.scene.tracing import straight_open
+from motionrt.untrusted.arguments import checked_array
+from motionrt.untrusted.words import shown
 
 
 @dataclass(frozen=True)
@@ -51,9 +53,9 @@ def find_end(grid: Grid, xz: npt.ArrayLike, name: str, snap: float) -> End:
         PathError: the place lies outside the scene, or in an obstacle with nothing free so near.
         InvalidInputError: ``xz`` is not two finite numbers.
     """
-    asked = np.asarray(xz, dtype=np.float64)
+    asked = checked_array(xz, f"the {name}", "two finite numbers, x and z in metres")
     if asked.shape != (2,) or not np.isfinite(asked).all():
-        raise InvalidInputError(f"the {name} must be two finite numbers, x and z in metres, not {xz!r}")
+        raise InvalidInputError(f"the {name} must be two finite numbers, x and z in metres, not {shown(xz)}")
     row, column, inside = grid.cells(asked)
     if not inside:
         low, high = grid.origin, grid.origin + np.array(grid.shape[::-1]) * grid.cell

@@ -8,7 +8,9 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
+from motionrt.errors import InvalidInputError
 from motionrt.motion.skeleton import FloatArray
+from motionrt.untrusted.arguments import checked_array
 
 BoolArray = npt.NDArray[np.bool_]
 IntArray = npt.NDArray[np.int64]
@@ -72,7 +74,7 @@ class Grid:
 
     def cells(self, xz: npt.ArrayLike) -> tuple[IntArray, IntArray, BoolArray]:
         """Row and column ``[...]`` of the cells of points ``[..., 2]``, clipped to the grid, and who lay inside."""
-        place = np.floor((np.asarray(xz, dtype=np.float64) - self.origin) / self.cell)
+        place = np.floor((_places(xz) - self.origin) / self.cell)
         column, row = place[..., 0], place[..., 1]
         inside = (row >= 0) & (column >= 0) & (row < self.shape[0]) & (column < self.shape[1])
         rows, columns = (np.where(inside, axis, 0).astype(np.int64) for axis in (row, column))
@@ -99,7 +101,7 @@ class Grid:
 
     def height_at(self, xz: npt.ArrayLike) -> FloatArray:
         """Height in metres ``[...]`` of the ground under points ``[..., 2]``, between cells linearly; NaN off it."""
-        points = np.asarray(xz, dtype=np.float64)
+        points = _places(xz)
         place = (points - self.origin) / self.cell - 0.5
         low = np.floor(place)
         total, weights = np.zeros(points.shape[:-1]), np.zeros(points.shape[:-1])
@@ -118,3 +120,10 @@ def label(mask: BoolArray) -> npt.NDArray[np.int32]:
     from scipy.ndimage import label as number
 
     return np.asarray(number(mask)[0], dtype=np.int32)
+
+
+def _places(xz: npt.ArrayLike) -> Points:
+    places = checked_array(xz, "places", "(x, z) in metres, one or more")
+    if places.shape[-1:] != (2,):
+        raise InvalidInputError(f"places must have the shape (..., 2), x and z in metres, not {places.shape}")
+    return places

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import struct
+import zipfile
+import zlib
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Literal
 
@@ -12,12 +16,34 @@ from motionrt.errors import InvalidInputError, SceneError
 from motionrt.limits import how_to_raise, limits
 from motionrt.locomotion.scene.mesh_files import Beside, check_claims
 from motionrt.locomotion.scene.optional import require_scene_file, scene_package
-from motionrt.untrusted.words import shorten
+from motionrt.untrusted.arguments import checked_array, checked_up, real
+from motionrt.untrusted.files import as_path
+from motionrt.untrusted.words import shorten, shown
 
 Triangles = npt.NDArray[np.float64]
 UpAxis = Literal["y", "z"]
 MeshArrays = tuple[npt.ArrayLike, npt.ArrayLike]
 """Vertices ``(V, 3)`` and faces ``(T, 3)``, counter-clockwise seen from outside."""
+
+BROKEN = (
+    OSError,
+    ValueError,
+    TypeError,
+    LookupError,
+    AttributeError,
+    ArithmeticError,
+    AssertionError,
+    EOFError,
+    ImportError,  # a kind of mesh that needs a package more
+    MemoryError,
+    NameError,  # its reader of PLY leaves a variable unset
+    NotImplementedError,
+    RecursionError,
+    struct.error,
+    zipfile.BadZipFile,
+    zlib.error,
+)
+"""What the parsers of trimesh raise for a damaged file."""
 
 
 def read_triangles(source: str | Path | MeshArrays, *, up: UpAxis = "y", scale: float = 1.0) -> Triangles:
@@ -33,11 +59,10 @@ def read_triangles(source: str | Path | MeshArrays, *, up: UpAxis = "y", scale: 
         SceneError: the file cannot be read or holds no triangles, or trimesh is not installed.
         InvalidInputError: wrong shapes, numbers, ``up`` or ``scale``.
     """
-    if up not in {"y", "z"}:
-        raise InvalidInputError(f"up must be 'y' or 'z', not '{up}'")
-    if not (np.isfinite(scale) and scale > 0):
-        raise InvalidInputError(f"scale must be a positive number of metres per unit, not {scale}")
-    vertices, faces = _load(Path(source)) if isinstance(source, str | Path) else _checked(*source)
+    checked_up(up)
+    if not 0 < real(scale) < np.inf:
+        raise InvalidInputError(f"scale must be a positive number of metres per unit, not {shown(scale)}")
+    vertices, faces = _checked(source) if isinstance(source, list | tuple) else _load(as_path(source))
     if not len(faces):
         raise SceneError(f"{_name(source)} holds no triangles")
     if not np.isfinite(vertices).all():
@@ -56,8 +81,11 @@ def _name(source: str | Path | MeshArrays) -> str:
     return str(source) if isinstance(source, str | Path) else "the mesh"
 
 
-def _checked(vertices: npt.ArrayLike, faces: npt.ArrayLike) -> tuple[Triangles, npt.NDArray[np.int64]]:
-    points, indices = np.asarray(vertices, dtype=np.float64), np.asarray(faces, dtype=np.int64)
+def _checked(mesh: Sequence[npt.ArrayLike]) -> tuple[Triangles, npt.NDArray[np.int64]]:
+    if len(mesh) != 2:
+        raise InvalidInputError(f"a mesh is a file, or vertices (V, 3) and faces (T, 3), not {shown(mesh)}")
+    points = checked_array(mesh[0], "vertices", "numbers (V, 3)")
+    indices = checked_array(mesh[1], "faces", "whole numbers (T, 3)").astype(np.int64)
     if points.ndim != 2 or points.shape[1] != 3 or indices.ndim != 2 or indices.shape[1] != 3:
         raise InvalidInputError(f"need vertices (V, 3) and faces (T, 3), not {points.shape} and {indices.shape}")
     if indices.size and (indices.min() < 0 or indices.max() >= len(points)):
@@ -70,17 +98,17 @@ def _load(path: Path) -> tuple[Triangles, npt.NDArray[np.int64]]:
     require_scene_file(path)
     check_claims(path)
     trimesh = scene_package("trimesh", f"reading the mesh {path.name}")
+    kind = path.suffix.lower().lstrip(".")
     try:
         with path.open("rb") as file:
-            kind = path.suffix.lower().lstrip(".")
             mesh = trimesh.load(
                 file, file_type=kind, force="mesh", skip_materials=True, process=False, resolver=Beside(path)
             )
         vertices = np.asarray(mesh.vertices, dtype=np.float64).reshape(-1, 3)
         faces = np.asarray(mesh.faces, dtype=np.int64).reshape(-1, 3)
-    except SceneError:
+    except SceneError:  # a file that it names is refused
         raise
-    except Exception as error:  # a parser of a dozen formats may raise anything
+    except BROKEN as error:
         raise SceneError(f"{path} cannot be read as a mesh: {shorten(str(error), 200)}") from error
     if faces.size and not (faces.min() >= 0 and faces.max() < len(vertices)):
         raise SceneError(f"{path}: its faces name vertices outside 0..{len(vertices) - 1}")

@@ -10,6 +10,8 @@ import numpy.typing as npt
 from motionrt.errors import InvalidInputError, SceneError
 from motionrt.limits import how_to_raise, limits
 from motionrt.locomotion.scene.grid import BoolArray, Points
+from motionrt.untrusted.arguments import checked_array, real
+from motionrt.untrusted.words import shown
 
 Polygons = Sequence[npt.ArrayLike]
 
@@ -38,8 +40,8 @@ def draw_polygons(outlines: Polygons, obstacles: Polygons, cell: float) -> tuple
 
 def grid_size(low: Points, high: Points, cell: float) -> tuple[int, int]:
     """Columns and rows of cells that cover ``low`` to ``high``."""
-    if not (np.isfinite(cell) and cell > 0):
-        raise InvalidInputError(f"cell must be a positive number of metres, not {cell}")
+    if not 0 < real(cell) < np.inf:
+        raise InvalidInputError(f"cell must be a positive number of metres, not {shown(cell)}")
     columns, rows = np.maximum(np.ceil((high - low) / cell - 1e-6), 1)
     if not columns * rows <= limits().cells:
         wide, deep = high - low
@@ -51,7 +53,7 @@ def grid_size(low: Points, high: Points, cell: float) -> tuple[int, int]:
 
 
 def _polygon(points: npt.ArrayLike, kind: str, index: int) -> Points:
-    polygon = np.asarray(points, dtype=np.float64)
+    polygon = checked_array(points, f"{kind} {index}", "at least three finite points (N, 2)")
     if polygon.ndim != 2 or polygon.shape[1] != 2 or len(polygon) < 3 or not np.isfinite(polygon).all():
         raise InvalidInputError(f"{kind} {index} must be at least three finite points (N, 2), not {polygon.shape}")
     if len(polygon) > limits().path_points:

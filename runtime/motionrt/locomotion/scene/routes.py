@@ -5,9 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from motionrt.errors import InvalidInputError, PathError
+from motionrt.limits import limits
 from motionrt.locomotion.path import Path
 from motionrt.locomotion.scene.grid import BoolArray, Points
 from motionrt.locomotion.scene.planner import Planner
+from motionrt.untrusted.arguments import checked_whole, real
+from motionrt.untrusted.words import shown
 
 _TRIES = 6
 _SHARP = np.cos(np.deg2rad(100))
@@ -19,10 +22,10 @@ def random_route(planner: Planner, length: float, seed: int) -> Path:
     Raises:
         PathError: nothing is free.
     """
-    if not (np.isfinite(length) and length > 0):
-        raise InvalidInputError(f"the length of a path must be a positive number of metres, not {length}")
+    if not 0 < real(length) <= limits().metres:
+        raise InvalidInputError(f"the length of a path must be a positive number of metres, not {shown(length)}")
     places = roomy_places(planner)
-    random = np.random.default_rng(seed)
+    random = np.random.default_rng(checked_whole(seed, "seed", 0))
     corners = places[random.integers(len(places))][None]
     while True:
         corners = np.concatenate([corners, _next_leg(planner, corners, places, random)[1:]])

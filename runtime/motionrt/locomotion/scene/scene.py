@@ -21,6 +21,17 @@ from motionrt.locomotion.scene.planner import Planner
 from motionrt.locomotion.scene.polygons import Polygons
 from motionrt.locomotion.scene.routes import random_route
 from motionrt.motion.skeleton import FloatArray
+from motionrt.untrusted.arguments import (
+    check_flags,
+    check_kind,
+    checked_array,
+    checked_number,
+    checked_up,
+    listed,
+    real,
+)
+from motionrt.untrusted.files import as_path
+from motionrt.untrusted.words import shown
 
 MESH_SUFFIXES = (".obj", ".ply", ".glb", ".gltf", ".stl", ".off")
 MAP_SUFFIXES = (".yaml", ".yml", ".pgm", ".png", ".bmp", ".jpg", ".jpeg", ".tif", ".tiff")
@@ -68,15 +79,17 @@ class Scene:
             SceneError: it cannot be read, or nothing in it is walkable.
             InvalidInputError: an unknown suffix, or an option that does not belong to such files.
         """
-        suffix = FilePath(path).suffix.lower()
+        suffix = as_path(path).suffix.lower()
         if suffix in MESH_SUFFIXES:
             if resolution is not None:
                 raise InvalidInputError("resolution= is for maps; the cells of a mesh are set by cell=")
-            return cls.from_mesh(path, agent=agent, cell=cell or building.MESH_CELL, start=start, up=up, scale=scale)
+            size = building.MESH_CELL if cell is None else cell
+            return cls.from_mesh(path, agent=agent, cell=size, start=start, up=up, scale=scale)
         if suffix not in MAP_SUFFIXES:
             known = ", ".join(MESH_SUFFIXES + MAP_SUFFIXES)
             raise InvalidInputError(f"cannot tell what kind of scene {path} is: known suffixes are {known}")
-        if cell is not None or start is not None or up != "y" or scale != 1:
+        checked_up(up)
+        if cell is not None or start is not None or up != "y" or real(scale) != 1:
             raise InvalidInputError("cell=, start=, up= and scale= are for meshes; a map's scale is its resolution")
         return cls.from_map(path, agent=agent, resolution=resolution)
 
@@ -106,7 +119,8 @@ class Scene:
             scale: metres per unit of the source.
             double_sided: take faces that look down for ground too, for meshes wound the wrong way round.
         """
-        who = agent or Agent()
+        who = _agent(agent)
+        check_flags(double_sided=double_sided)
         grid = building.mesh_grid(source, who, cell=cell, start=start, up=up, scale=scale, double_sided=double_sided)
         return cls(grid, who)
 
@@ -127,15 +141,16 @@ class Scene:
             resolution: metres per pixel, for an image without YAML; its lower left corner is the origin.
             unknown_free: walk on unexplored ground too.
         """
-        who = agent or Agent()
-        return cls(building.map_grid(FilePath(path), who, resolution, unknown_free=unknown_free), who)
+        who = _agent(agent)
+        check_flags(unknown_free=unknown_free)
+        return cls(building.map_grid(as_path(path), who, resolution, unknown_free=unknown_free), who)
 
     @classmethod
     def from_polygons(
         cls, outlines: Polygons, obstacles: Polygons = (), *, agent: Agent | None = None, cell: float = 0.05
     ) -> Scene:
         """Flat ground inside any of ``outlines`` and outside all ``obstacles``: polygons ``(N, 2)``, (x, z) metres."""
-        who = agent or Agent()
+        who, outlines, obstacles = _agent(agent), _listed(outlines, "outlines"), _listed(obstacles, "obstacles")
         return cls(building.polygon_grid(outlines, obstacles, who, cell), who)
 
     @classmethod
@@ -143,8 +158,12 @@ class Scene:
         cls, walkable: BoolArray, cell: float, *, origin: tuple[float, float] = (0.0, 0.0), agent: Agent | None = None
     ) -> Scene:
         """Flat ground where ``walkable`` ``(H, W)`` says so: rows along z, columns along x, from ``origin`` (x, z)."""
-        who = agent or Agent()
-        return cls(building.flat_grid(np.asarray(walkable, dtype=bool), np.asarray(origin), cell, who), who)
+        who = _agent(agent)
+        walkable = checked_array(walkable, "walkable", "truth values (H, W)") != 0
+        corner = checked_array(origin, "origin", "(x, z) in metres")
+        if corner.shape != (2,) or not np.isfinite(corner).all():
+            raise InvalidInputError(f"origin must be two finite numbers, not {shown(origin)}")
+        return cls(building.flat_grid(walkable, corner, cell, who), who)
 
     @property
     def bounds(self) -> FloatArray:
@@ -187,8 +206,20 @@ class Scene:
             PathError: there is no way; the message says whether an end is in an obstacle or outside, or else how wide
                 the narrowest place of the widest way is.
         """
-        return self._planner.plan([start, *via, goal], snap)
+        places = [start, *listed(via, "via", "places (x, z)"), goal]
+        return self._planner.plan(places, checked_number(snap, "snap", 0.0))
 
     def random_path(self, length: float, seed: int = 0) -> Path:
         """A path of ``length`` metres through random free places of the largest area, the same for the same seed."""
         return random_route(self._planner, length, seed)
+
+
+def _agent(agent: Agent | None) -> Agent:
+    if agent is None:
+        return Agent()
+    check_kind(agent, Agent, "agent", "an Agent")
+    return agent
+
+
+def _listed(polygons: Polygons, name: str) -> Polygons:
+    return listed(polygons, name, "polygons (N, 2)")

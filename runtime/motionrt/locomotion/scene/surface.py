@@ -12,6 +12,8 @@ from motionrt.limits import how_to_raise, limits
 from motionrt.locomotion.scene.grid import BoolArray, IntArray, Points
 from motionrt.locomotion.scene.mesh import Triangles
 from motionrt.locomotion.scene.polygons import grid_size
+from motionrt.untrusted.arguments import real
+from motionrt.untrusted.words import shown
 
 _BATCH = 2_000_000  # samples in memory at once
 LEVEL = 0.02  # metres: samples of one cell in one level of this height are one patch
@@ -51,8 +53,8 @@ def sample_surface(triangles: Triangles, cell: float, max_slope: float, *, doubl
     A triangle is flat if it faces up and is at most ``max_slope`` degrees steep; ``double_sided`` takes those that face
     down for flat too, which helps meshes with faces the wrong way round.
     """
-    if not cell > 0 or not np.isfinite(cell):
-        raise InvalidInputError(f"cell must be a positive number of metres, not {cell}")
+    if not 0 < real(cell) < np.inf:
+        raise InvalidInputError(f"cell must be a positive number of metres, not {shown(cell)}")
     low, high = triangles.min(axis=(0, 1)), triangles.max(axis=(0, 1))
     columns, rows = grid_size(low[[0, 2]], high[[0, 2]], cell)
     flat = _upward(triangles, double_sided=double_sided) >= np.cos(np.deg2rad(max_slope)) - 1e-6
@@ -84,10 +86,11 @@ def _samples(triangles: Triangles, spacing: float) -> Iterator[tuple[Points, Int
     turned = np.take_along_axis(triangles, ((first[:, None] + np.arange(3)) % 3)[..., None], axis=1)
     rows = np.ceil(edges.max(axis=1) / spacing).astype(np.int64) + 1
     across = np.ceil(edges.min(axis=1) / spacing).astype(np.int64) + 1
-    if (rows.astype(np.float64) * across).sum() > limits().samples:
+    stretched = max(limits().stretched_samples, 1000 * len(triangles))
+    if (rows.astype(np.float64) * across).sum() > min(stretched, limits().samples):
         raise SceneError(
             f"the mesh is too large for cells of {2 * spacing:g} m: give a larger cell=, check scale=, or: "
-            f"{how_to_raise('samples')}"
+            f"{how_to_raise('stretched_samples' if stretched < limits().samples else 'samples')}"
         )
     total = np.cumsum(rows * across)
     for part in np.split(np.arange(len(turned)), np.searchsorted(total, np.arange(_BATCH, total[-1], _BATCH))):

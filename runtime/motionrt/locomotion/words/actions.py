@@ -16,6 +16,7 @@ from motionrt.locomotion.words.seats import Seat, backrest_front, find_seat, sea
 from motionrt.locomotion.words.standing_place import BODY, TOES, Spot, best, spot_at
 from motionrt.locomotion.words.things import Thing, find_thing, ground_place
 from motionrt.motion.skeleton import FloatArray
+from motionrt.untrusted.arguments import check_kind
 
 PELVIS_ABOVE_SEAT = 0.15  # metres from the surface to the joint
 PELVIS_STANDING = 0.94  # above the ground
@@ -64,7 +65,8 @@ def action_keypoints(
     Raises:
         InvalidInputError: an unknown verb or object, no seat to sit on, or a height that the object does not have.
     """
-    told = parse_instruction(instruction) if isinstance(instruction, str) else instruction
+    check_kind(cloud, SemanticCloud, "cloud", "a SemanticCloud")
+    told = instruction if isinstance(instruction, Instruction) else parse_instruction(instruction)
     here = ground_place(near)
     thing = find_thing(told, cloud, here)
     rules = {"sit": _sit, "stand": _stand, "grab": _hand_at, "reach": _hand_at, "touch": _hand_at}

@@ -12,6 +12,7 @@ from motionrt.errors import InvalidInputError
 from motionrt.limits import how_to_raise, limits
 from motionrt.locomotion.words.vocabulary import FLOORS, find_label, normal
 from motionrt.motion.skeleton import FloatArray
+from motionrt.untrusted.arguments import listed
 from motionrt.untrusted.words import shorten, shown
 
 _VOXEL = 0.08  # metres; points of one voxel belong together
@@ -138,6 +139,8 @@ def _labels(labels: object) -> npt.NDArray[np.generic]:
 def _names(values: npt.NDArray[np.generic], names: Sequence[str] | Mapping[int, str] | None) -> tuple[str, ...]:
     if values.dtype.kind in "US":
         return tuple(value.decode("utf-8", "replace") if isinstance(value, bytes) else str(value) for value in values)
+    if names is not None and not isinstance(names, Mapping):
+        names = listed(names, "names", "texts")
     table = dict(names) if isinstance(names, Mapping) else dict(enumerate(names or ()))
     missing = [int(value) for value in values.tolist() if value not in table]
     if missing and names is not None:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from motionrt.errors import InvalidInputError
 from motionrt.locomotion.words.vocabulary import FILLERS, PLACES, VERBS, normal
+from motionrt.untrusted.arguments import check_kind
 
 _NUMBER = r"(?P<number>\d+(?:[.,]\d+)?|[.,]\d+)"
 _UNIT = r"(?P<unit>m|cm|met(?:er|re)s?|centimet(?:er|re)s?)"
@@ -42,6 +43,7 @@ def parse_instruction(text: str) -> Instruction:
     Raises:
         InvalidInputError: an unknown verb (lists the verbs), no object, or a height beyond 3 m.
     """
+    check_kind(text, str, "an instruction", "a text")
     rest, height = _height(text.lower())
     rest, hand = _hand(normal(rest))
     words = re.findall(r"[^\W_]+", rest)

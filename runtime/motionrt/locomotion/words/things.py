@@ -14,6 +14,8 @@ from motionrt.locomotion.words.instruction import Instruction
 from motionrt.locomotion.words.standing_place import Surroundings, surroundings
 from motionrt.locomotion.words.vocabulary import find_label
 from motionrt.motion.skeleton import FloatArray
+from motionrt.untrusted.arguments import checked_array
+from motionrt.untrusted.words import shown
 
 LARGE = 2.5  # metres: of longer things (a wall) only the nearest stretch counts
 
@@ -39,9 +41,9 @@ def ground_place(near: npt.ArrayLike | None) -> Plan | None:
     """The ground plan, x and z, ``(2,)`` of ``(x, z)`` or ``(x, y, z)``; InvalidInputError for anything else."""
     if near is None:
         return None
-    place = np.asarray(near, dtype=np.float64)
+    place = checked_array(near, "near", "(x, z) or (x, y, z) metres")
     if place.shape not in ((2,), (3,)) or not np.isfinite(place).all():
-        raise InvalidInputError(f"near must be (x, z) or (x, y, z) metres, not {near!r}")
+        raise InvalidInputError(f"near must be (x, z) or (x, y, z) metres, not {shown(near)}")
     return place[[0, -1]]
 
 

@@ -25,8 +25,11 @@ gives the former.
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 
+from motionrt.motion.batches import by_batches
 from motionrt.motion.features import guo_skeleton as skeleton
 from motionrt.motion.features.checks import checked_features
 from motionrt.motion.from_positions import checked_joints, from_positions
@@ -61,7 +64,7 @@ def encode_positions(joints: Array, bone_lengths: Array = skeleton.BONE_LENGTHS)
     """
     given = checked_joints(joints)[:, :SMPL22_JOINTS]
     root = given[:, 0] * skeleton.scale_to_target(given, bone_lengths)
-    return _features(skeleton.directions(skeleton.bones(given)), root, bone_lengths)
+    return _features(by_batches(_pointing, given), root, bone_lengths)
 
 
 def positions(features: FloatArray) -> FloatArray:
@@ -112,27 +115,38 @@ def _encoded_again(joints: Array) -> FloatArray:
 
 def _features(pointing: Array, root: Array, bone_lengths: Array = skeleton.BONE_LENGTHS) -> FloatArray:
     """Features of bones ``(F, 21, 3)`` that point so, on a root's path ``(F, 3)``, placed as he does."""
-    joints = skeleton.placed(skeleton.with_lengths(pointing, root, bone_lengths))
+    longer = by_batches(partial(skeleton.with_lengths, bone_lengths=bone_lengths), pointing, root)
+    joints = skeleton.placed(longer)
     yaw = skeleton.headings(joints)
     to_heading = axis_rotation("Y", -yaw)
-    steps = _forward_difference(joints)
-    rotations = skeleton.chain_rotations(skeleton.directions(skeleton.bones(joints)), yaw)
-    parts = [
-        (wrapped(-_forward_difference(yaw)) / 2)[:, None],
-        _turn(_next(to_heading), steps[:, :1])[:, 0, ::2],
-        joints[:, 0, 1:2],
-        _turn(to_heading, joints[:, 1:] - joints[:, :1] * _GROUND).reshape(len(joints), -1),
-        rotations.reshape(len(joints), -1),
-        _turn(to_heading, steps).reshape(len(joints), -1),
-        np.square(steps[:, CONTACT_JOINTS]).sum(axis=-1) < float(CONTACT_SPEED) ** 2,
-    ]
-    rows = np.concatenate(parts, axis=1).astype(np.float32)
+    steps, turns = _forward_difference(joints), wrapped(-_forward_difference(yaw)) / 2
+    rows = by_batches(_rows, joints, yaw, to_heading, _next(to_heading), steps, turns)
     if len(rows) > 1:  # the steps of the last frame are those of the row before
         rows[-1, YAW_STEP : PLANAR.stop], rows[-1, VELOCITIES.start :] = (
             rows[-2, YAW_STEP : PLANAR.stop],
             rows[-2, VELOCITIES.start :],
         )
     return rows
+
+
+def _pointing(joints: Array) -> Array:
+    """Where the bones of joints ``(F, 22, 3)`` point, ``(F, 21, 3)``."""
+    return skeleton.directions(skeleton.bones(joints))
+
+
+def _rows(joints: Array, yaw: Array, to_heading: Array, to_next: Array, steps: Array, turns: Array) -> FloatArray:
+    """Features ``(F, 263)`` of placed joints, their headings and their steps to the next frame."""
+    count = len(joints)
+    parts = [
+        turns[:, None],
+        _turn(to_next, steps[:, :1])[:, 0, ::2],
+        joints[:, 0, 1:2],
+        _turn(to_heading, joints[:, 1:] - joints[:, :1] * _GROUND).reshape(count, -1),
+        skeleton.chain_rotations(_pointing(joints), yaw).reshape(count, -1),
+        _turn(to_heading, steps).reshape(count, -1),
+        np.square(steps[:, CONTACT_JOINTS]).sum(axis=-1) < float(CONTACT_SPEED) ** 2,
+    ]
+    return np.concatenate(parts, axis=1).astype(np.float32)
 
 
 def _joints(x: Array) -> Array:

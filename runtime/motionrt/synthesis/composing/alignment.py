@@ -13,6 +13,7 @@ from motionrt.motion.motion import Motion
 from motionrt.motion.rotations import Array
 from motionrt.synthesis.composing.phase import gait_phase, in_phase
 from motionrt.synthesis.composing.timing import held, looped, stretched, warped
+from motionrt.untrusted.words import shown
 
 Align = Literal["start", "stretch", "phase"]
 LONGEST_S = 600.0  # seconds; a loop of ten minutes
@@ -33,8 +34,8 @@ def aligned(motions: Sequence[Motion], leader: int, align: Align, seconds: float
         InvalidInputError: an unknown ``align``; ``seconds`` that are not positive or above 600; "phase" without two
             motions that walk or swing their arms for a whole cycle.
     """
-    if align not in get_args(Align):
-        raise InvalidInputError(f"align must be one of {', '.join(get_args(Align))}, not {align!r}")
+    if not isinstance(align, str) or align not in get_args(Align):
+        raise InvalidInputError(f"align must be one of {', '.join(get_args(Align))}, not {shown(align)}")
     frames = None if seconds is None else frames_of(seconds, motions[0].fps)
     moving = [number for number, motion in enumerate(motions) if motion.frames > 1]
     if not moving:

@@ -18,6 +18,8 @@ from motionrt.synthesis.composing.grounding import on_their_ground
 from motionrt.synthesis.composing.keeping import keep_lean
 from motionrt.synthesis.composing.layers import Derive, Layer, checked_layers
 from motionrt.synthesis.composing.ownership import SEAM_JOINTS, ownership, softened
+from motionrt.untrusted.arguments import check_flags
+from motionrt.untrusted.words import shown
 
 Keep = Literal["local", "world"]
 SEAM = 1
@@ -64,6 +66,7 @@ def compose(
             it moves and no ``derive``, lengths out of range, or clashing layers without ``override``.
     """
     _check(seam, keep)
+    check_flags(foot_lock=foot_lock, override=override)
     checked = checked_layers(layers)
     shares = ownership(checked, derive=derive, override=override)
     motions = aligned([layer.motion for layer in checked], int(np.argmax(shares[:, 0])), align, seconds)
@@ -79,5 +82,5 @@ def compose(
 def _check(seam: int, keep: str) -> None:
     if isinstance(seam, bool) or not isinstance(seam, int) or not 0 <= seam <= 3:
         raise InvalidInputError(f"seam must be 0, 1, 2 or 3 joints of {', '.join(SEAM_JOINTS)}, not {seam!r}")
-    if keep not in ("local", "world"):
-        raise InvalidInputError(f'keep must be "local" or "world", not {keep!r}')
+    if not isinstance(keep, str) or keep not in {"local", "world"}:
+        raise InvalidInputError(f'keep must be "local" or "world", not {shown(keep)}')

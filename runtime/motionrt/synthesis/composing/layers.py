@@ -10,6 +10,7 @@ from motionrt.errors import InvalidInputError
 from motionrt.motion.body_parts import PART_JOINTS, PARTS, checked_parts
 from motionrt.motion.motion import Motion
 from motionrt.motion.skeleton import SMPL24
+from motionrt.untrusted.arguments import iterable
 
 Derive = Callable[[Motion], Iterable[str]]
 """Finds the body parts that a motion moves on purpose, where the caller gives none."""
@@ -49,7 +50,7 @@ class Layer:
         if self.parts is not None:
             object.__setattr__(self, "parts", checked_parts(self.parts))
         if self.mask is not None:
-            if not isinstance(self.mask, Iterable):
+            if not iterable(self.mask):
                 raise InvalidInputError(f"a mask is a list of names of parts or joints, not {self.mask!r}")
             names = (self.mask,) if isinstance(self.mask, str) else tuple(self.mask)
             mask_joints(names)

@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import lru_cache
 
-from motionrt.errors import InvalidInputError, LabellingError, MotionRTError
+from motionrt.errors import InvalidInputError
 from motionrt.motion.body_parts import checked_parts
 from motionrt.synthesis.parts.endpoint import Complete, Endpoint
 from motionrt.synthesis.parts.prompting import PromptLabeller
 from motionrt.synthesis.parts.rules import RulesLabeller
+from motionrt.untrusted.arguments import check_kind
 
 Labeller = Callable[[str], frozenset[str]]
 LABELLERS = ("rules", "llm")
@@ -29,14 +30,17 @@ def body_parts(
     Raises:
         InvalidInputError: empty text, an unknown labeller, ``"llm"`` without a model, or a callable that returns
             something else than names of parts.
-        LabellingError: the language model or the callable fails, or its answer names no part.
+        LabellingError: the language model gives no answer, or one that names no part.
+
+    What a callable of yours raises comes out as it is.
     """
     if not isinstance(text, str) or not text.strip():
         raise InvalidInputError("the action text is empty; say what somebody does, as in 'wave the right hand'")
-    if labeller != "llm" and (complete is not None or endpoint is not None):
+    if not (isinstance(labeller, str) and labeller == "llm") and (complete is not None or endpoint is not None):
         raise InvalidInputError("complete and endpoint are for labeller='llm'; say so, or leave them out")
     if callable(labeller):
-        return _checked(_asked(labeller, text))
+        return _checked(labeller(text))
+    check_kind(labeller, str, "labeller", "a name or a function")
     if labeller == "rules":
         return _rules()(text)
     if labeller == "llm":
@@ -47,15 +51,6 @@ def body_parts(
 @lru_cache(maxsize=1)
 def _rules() -> RulesLabeller:
     return RulesLabeller()
-
-
-def _asked(labeller: Labeller, text: str) -> object:
-    try:
-        return labeller(text)
-    except MotionRTError:
-        raise
-    except Exception as error:  # it is somebody else's code
-        raise LabellingError(f"the labeller failed: {type(error).__name__}: {error}") from error
 
 
 def _checked(answer: object) -> frozenset[str]:

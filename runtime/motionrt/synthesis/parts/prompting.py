@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from motionrt.errors import InvalidInputError, LabellingError, MotionRTError
+from motionrt.errors import InvalidInputError, LabellingError
 from motionrt.motion.body_parts import ARMS, LEGS, PARTS
 from motionrt.synthesis.parts.endpoint import Complete, Endpoint
 
@@ -103,16 +103,10 @@ class PromptLabeller:
 
         Raises:
             InvalidInputError: empty text.
-            LabellingError: the model fails, gives no answer, or one that names no part.
+            LabellingError: the model gives no answer, or one that names no part.
+
+        What ``complete`` raises comes out as it is.
         """
         if not isinstance(text, str) or not text.strip():
             raise InvalidInputError("the action text is empty; say what somebody does, as in 'wave the right hand'")
-        return parts_in_answer(self._answer(prompt_for(text)))
-
-    def _answer(self, prompt: str) -> str:
-        try:
-            return self._complete(prompt)
-        except MotionRTError:
-            raise
-        except Exception as error:  # it is somebody else's code
-            raise LabellingError(f"the language model failed: {type(error).__name__}: {error}") from error
+        return parts_in_answer(self._complete(prompt_for(text)))

@@ -13,7 +13,7 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from motionrt.bench.makes import DECODE, decode_call, generate_calls
+from motionrt.bench.generation import DECODE, decode_call, generate_calls
 from motionrt.bench.timing import Call
 from motionrt.models.temos import LatentDistribution
 from motionrt.models.text import SentenceFeatures
@@ -21,7 +21,7 @@ from motionrt.synthesis.generating import Generator
 from motionrt_export.examples import Array
 from motionrt_export.references import denoiser_reference
 from motionrt_export.specs import LATENT_DENOISER
-from motionrt_export.torch_moves import numpy, released, tensor
+from motionrt_export.torch_locomotion import numpy, released, tensor
 from motionrt_training.networks.egocentric import WIDTH
 from motionrt_training.networks.latent_denoiser import LatentDenoiser
 from motionrt_training.networks.temos import Temos

@@ -11,7 +11,7 @@ from tiny_models import edited
 
 from motionrt.bench import cases, report, tables, worker
 from motionrt.bench.cases import BENCHMARKS, Benchmark, chosen
-from motionrt.bench.moves import (
+from motionrt.bench.locomotion import (
     CROWDS,
     PERFORM,
     POSE,

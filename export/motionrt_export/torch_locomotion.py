@@ -11,7 +11,7 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from motionrt.bench.moves import CROWDS, POSE, TRANSITION, Moves, pose_call, transition_call, walk_call, walk_case
+from motionrt.bench.locomotion import CROWDS, POSE, TRANSITION, Moves, pose_call, transition_call, walk_call, walk_case
 from motionrt.bench.timing import Call
 from motionrt.locomotion.crowd import NextFrame
 from motionrt.locomotion.transitions import Infill

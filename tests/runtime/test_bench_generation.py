@@ -9,7 +9,7 @@ from tiny_models import TINY, TINY_GENERATORS
 from motionrt import Motion, Runtime
 from motionrt.bench import worker
 from motionrt.bench.cases import BENCHMARKS
-from motionrt.bench.makes import BODY_PARTS, COMPOSE, DECODE, FRAMES, compose_call, generate_calls, generate_case
+from motionrt.bench.generation import BODY_PARTS, COMPOSE, DECODE, FRAMES, compose_call, generate_calls, generate_case
 from motionrt.bench.setting import Setting
 from motionrt.bench.timing import Turns
 from motionrt.bench.workload import TEXTS, Workload
