@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from motionrt.errors import FormatError, MissingDependencyError
-from motionrt.formats.gltf.choice import chosen
+from motionrt.formats.gltf.choice import called, chosen
 from motionrt.formats.text import require_file
 from motionrt.motion.rotations import Array, normalise, quaternion_to_matrix
 from motionrt.rigs.clip import RigClip
@@ -78,10 +78,11 @@ def _standing(scene: _Scene, joints: _Joints) -> RigClip:
 
 
 def fbx_animations(path: Path) -> list[str]:
-    """Names of the takes that move the skeleton."""
+    """What the takes that move the skeleton are called."""
     scene = open_scene(path)
-    nodes = _joints(scene, path).nodes
-    return [take.name for take in _takes(scene) if _moves(take, nodes)]
+    nodes, takes = _joints(scene, path).nodes, _takes(scene)
+    names = [take.name for take in takes]
+    return [called(names, i) for i, take in enumerate(takes) if _moves(take, nodes)]
 
 
 @dataclass(frozen=True, eq=False)
@@ -211,7 +212,7 @@ def _take(scene: _Scene, nodes: Sequence[Any], animation: int | str | None, path
     if not moving:
         raise FormatError(path, "holds a skeleton but no animation of it")
     if len(moving) > 1:
-        known = ", ".join(stack.name for stack in moving)
+        known = ", ".join(called(names, stacks.index(stack)) for stack in moving)
         raise FormatError(path, f"holds {len(moving)} animations; choose with animation=, one of: {known}")
     return moving[0]
 

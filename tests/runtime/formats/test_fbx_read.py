@@ -41,7 +41,7 @@ def test_another_rate_samples_the_same_take(tmp_path: Path) -> None:
     path = write_fbx(rig(person(31), NAMES), tmp_path / "walk.fbx", centimetres_per_unit=100, up="y")
     assert load_rig(path, fps=60).frames == 61
     assert load_rig(path, animation="Take 001").frames == 31
-    with pytest.raises(FormatError, match="no one animation 'Run'; it has: Take 001"):
+    with pytest.raises(FormatError, match="no animation 'Run'; it has: Take 001"):
         load_rig(path, animation="Run")
 
 
