@@ -15,7 +15,7 @@ from motionrt.cli.skipped import SOME_SKIPPED, say_skipped
 if TYPE_CHECKING:
     from motionrt.motion import Motion
 
-OUTPUTS = ".bvh, .glb, .gltf, .vrma, .npz"
+OUTPUTS = ".bvh, .glb, .gltf, .vrma, .npz; .fbx with Blender"
 HELP = f"""convert motion files ({INPUTS})
 Whatever the rig, units and axes of the file, the result has the 24 joints of the canonical skeleton and Y up.
 A folder is converted whole, into a folder: files that cannot be read are listed with the reason, and the

@@ -14,7 +14,7 @@ def names_of(entries: list[Json]) -> list[str]:
 
 
 def called(names: list[str], index: int) -> str:
-    """What to call the one at ``index`` so that :func:`chosen` finds it: its name, or its index where others share it."""
+    """What :func:`chosen` finds the one at ``index`` by: its name, or its index where names repeat."""
     return names[index] if names.count(names[index]) == 1 else str(index)
 
 
