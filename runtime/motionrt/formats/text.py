@@ -18,6 +18,8 @@ _LFS_POINTER = b"version https://git-lfs"
 LARGEST_VALUE = 1e7
 """No coordinate (file units) and no angle (degrees) of a sane file is larger; float32 would be noise."""
 
+_PLAIN = "0123456789+-.eE \t\n"
+
 
 def require_file(path: Path) -> None:
     """Raise MotionFileNotFoundError or FormatError unless ``path`` is an ordinary file."""
@@ -73,6 +75,21 @@ def to_float(word: str, path: Path, line: int) -> float:
     if abs(value) > LARGEST_VALUE:
         raise FormatError(path, f"{shorten(word)} is too large for a coordinate or an angle", line)
     return value
+
+
+def numbers_in(text: str, count: int) -> npt.NDArray[np.float64] | None:
+    """All numbers of a text that holds nothing else; ``None`` where a word is no finite number of sane size.
+
+    Quick where there are ``count`` of them.
+    """
+    if not text.strip(_PLAIN):
+        try:
+            values = np.fromstring(text, dtype=np.float64, sep=" ")
+        except (ValueError, DeprecationWarning):  # "1-2"; older versions of NumPy end there
+            values = np.empty(0)
+        if values.size == count:
+            return values if bool((np.abs(values) <= LARGEST_VALUE).all()) else None
+    return to_floats(text.split())
 
 
 def to_floats(words: list[str]) -> npt.NDArray[np.float64] | None:

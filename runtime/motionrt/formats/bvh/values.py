@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from motionrt.errors import FormatError
-from motionrt.formats.text import line_of, to_float, to_floats
+from motionrt.formats.text import line_of, numbers_in, to_float
 
 Values = npt.NDArray[np.float64]
 
@@ -19,7 +19,7 @@ def read_values(text: str, at: int, shape: tuple[int, int], path: Path) -> tuple
     ``shape`` is what the file declares. Where it holds another number of whole lines of ``C`` values, those count: many
     exporters are off by one, and an interrupted export ends within a line.
     """
-    values = to_floats(text[at:].split())
+    values = numbers_in(text[at:], shape[0] * shape[1])
     if values is not None and values.size == shape[0] * shape[1] and values.size:
         return values.reshape(shape), ()
     if values is not None and not values.size:

@@ -39,6 +39,15 @@ bpy.ops.export_scene.fbx(filepath=target, add_leaf_bones=False, bake_anim_use_nl
 """
 
 
+def can_write_fbx() -> bool:
+    """Whether there is a Blender."""
+    return _blender() is not None
+
+
+def _blender() -> str | None:
+    return shutil.which(os.environ.get(PROGRAM, "blender"))
+
+
 def write_fbx(motion: Motion, path: str | Path) -> Path:
     """Write a motion as binary FBX, whole or not at all: skeleton, animation and the body of bones of a GLB.
 
@@ -62,7 +71,7 @@ def fbx_of_glb(path: str | Path, fps: float, write: Callable[[Path, float], Path
 
 
 def _run(path: Path, arguments: list[str]) -> None:
-    program = shutil.which(os.environ.get(PROGRAM, "blender"))
+    program = _blender()
     if program is None:
         raise MissingDependencyError(
             f"writing FBX needs Blender 3.4 or newer: install it, or say where it is with {PROGRAM}=PATH;"
