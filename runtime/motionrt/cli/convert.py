@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 import argparse
-from collections import Counter
+import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from motionrt.cli.console import Progress, print_json, say
+from motionrt.cli.console import Progress, print_json
 from motionrt.cli.options import add_json, command
-from motionrt.cli.reading import INPUTS, add_reading, in_options, read_motion
+from motionrt.cli.reading import INPUTS, add_reading, in_options, read_motion, spare_inputs
+from motionrt.cli.skipped import SOME_SKIPPED, say_skipped
 
 if TYPE_CHECKING:
     from motionrt.motion import Motion
 
-SOME_SKIPPED = 3
-OUTPUTS = ".bvh, .glb, .gltf, .vrma, .npz"
+OUTPUTS = ".bvh, .glb, .gltf, .vrma, .npz; .fbx with Blender"
 HELP = f"""convert motion files ({INPUTS})
 Whatever the rig, units and axes of the file, the result has the 24 joints of the canonical skeleton and Y up.
 A folder is converted whole, into a folder: files that cannot be read are listed with the reason, and the
@@ -78,7 +78,8 @@ def run_resample(arguments: argparse.Namespace) -> int:
 
 
 def _finish(arguments: argparse.Namespace, motion: Motion) -> int:
-    path = _save(arguments, motion, arguments.input, arguments.output)
+    spare_inputs(arguments.output, arguments.input)
+    path = motion.save(arguments.output, units=arguments.units, t_pose=arguments.t_pose)
     if arguments.json:
         print_json({"path": str(path), "frames": motion.frames, "fps": motion.fps, "seconds": motion.duration})
     else:
@@ -86,54 +87,55 @@ def _finish(arguments: argparse.Namespace, motion: Motion) -> int:
     return 0
 
 
-def _save(arguments: argparse.Namespace, motion: Motion, source: Path, target: Path) -> Path:
-    from motionrt.errors import InvalidInputError
-
-    if target.exists() and source.exists() and target.samefile(source):
-        raise InvalidInputError(f"{target} is the file that was read; write to another one")
-    return motion.save(target, units=arguments.units, t_pose=arguments.t_pose)
-
-
 def _run_folder(arguments: argparse.Namespace) -> int:
     """Convert all motion files below a folder; folders below it are made again below the output."""
     from motionrt.errors import InvalidInputError, MotionRTError
-    from motionrt.formats import WRITABLE_SUFFIXES, find_motions
+    from motionrt.formats import WRITABLE_SUFFIXES, animations_of, find_motions
 
     suffix = arguments.to if arguments.to.startswith(".") else f".{arguments.to}"
     if suffix not in WRITABLE_SUFFIXES:
         raise InvalidInputError(f"--to {arguments.to}: can be {', '.join(WRITABLE_SUFFIXES)}")
     if arguments.output.exists() and not arguments.output.is_dir():
         raise InvalidInputError(f"{arguments.output} is a file; a folder is converted into a folder")
-    found, progress = find_motions(arguments.input), Progress()
+    found = find_motions(arguments.input)
+    names, progress = _sources(found.names, arguments.input, arguments.output), Progress()
     written: list[Path] = []
-    skipped: list[tuple[str, str]] = []
-    taken: set[Path] = set()
-    for done, (name, animation) in enumerate(found):
-        progress(done, len(found), name)
-        try:
-            target = _target(arguments.output / name, animation, suffix, taken)
-            written.append(_convert_one(arguments, name, animation, target))
-        except MotionRTError as error:
-            skipped.append((name, in_options(" ".join(str(error).split()))))
-    progress(len(found), len(found), "")
+    skipped = list(found.closed)
+    taken = {(arguments.input / name).resolve() for name in names}  # no input is written over
+    for done, name in enumerate(names):
+        progress(done, len(names), name)
+        several = animations_of(arguments.input / name) if arguments.animation is None else []
+        for animation in several or [arguments.animation]:
+            try:
+                target = _target(arguments.output / name, animation if several else None, suffix, taken)
+                written.append(_convert_one(arguments, arguments.input / name, animation, target))
+            except MotionRTError as error:
+                skipped.append((name, in_options(" ".join(str(error).split()))))
+    progress(len(names), len(names), "")
     return _report(arguments, written, skipped)
 
 
-def _convert_one(arguments: argparse.Namespace, name: str, animation: str | None, target: Path) -> Path:
-    source = arguments.input / name
-    chosen = argparse.Namespace(**{**vars(arguments), "animation": animation or arguments.animation})
-    motion = read_motion(chosen, source)
+def _sources(names: list[str], source: Path, output: Path) -> list[str]:
+    """What is to be converted: not what lies in an output folder inside the input folder, from the last time."""
+    inside, above = output.resolve(), source.resolve()
+    if inside == above or not inside.is_relative_to(above):
+        return names
+    return [name for name in names if not (above / name).is_relative_to(inside)]
+
+
+def _convert_one(arguments: argparse.Namespace, source: Path, animation: str | None, target: Path) -> Path:
+    motion = read_motion(argparse.Namespace(**{**vars(arguments), "animation": animation}), source)
     target.parent.mkdir(parents=True, exist_ok=True)
-    return _save(arguments, motion if arguments.fps is None else motion.resample(arguments.fps), source, target)
+    motion = motion if arguments.fps is None else motion.resample(arguments.fps)
+    return motion.save(target, units=arguments.units, t_pose=arguments.t_pose)
 
 
 def _target(path: Path, animation: str | None, suffix: str, taken: set[Path]) -> Path:
-    """Where a file goes: two sources of one stem do not write the same file."""
-    stem = path.stem if animation is None else f"{path.stem}__{animation.replace('/', '_')}"
-    target = path.with_name(stem + suffix)
-    if target in taken:
-        target = path.with_name(f"{stem}_{path.suffix[1:]}{suffix}")
-    taken.add(target)
+    """Where a file goes: two sources of one stem do not write the same file, and no source is written over."""
+    stem = path.stem if animation is None else f"{path.stem}__" + re.sub(r"[^\w .()-]", "_", animation)
+    names = [stem, f"{stem}_{path.suffix[1:]}", *(f"{stem}_{path.suffix[1:]}_{k}" for k in range(2, 1000))]
+    target = next(target for name in names if (target := path.with_name(name + suffix)).resolve() not in taken)
+    taken.add(target.resolve())
     return target
 
 
@@ -143,16 +145,5 @@ def _report(arguments: argparse.Namespace, written: list[Path], skipped: list[tu
         print_json({"written": [str(path) for path in written], "skipped": reasons})
     else:
         print(f"{arguments.output}: {len(written)} files written")
-    for name, reason in skipped[:20]:
-        say(f"skipped {name}: {reason}")
-    if len(skipped) > 20:
-        say_reasons(skipped)
+    say_skipped(skipped)
     return SOME_SKIPPED if skipped else 0
-
-
-def say_reasons(skipped: list[tuple[str, str]]) -> None:
-    """Many skipped files by reason, most frequent first, names and numbers left out."""
-    counts = Counter(reason.split(": ")[-1][:90] for _, reason in skipped)
-    say(f"motionrt: {len(skipped)} files were skipped:")
-    for reason, count in counts.most_common(12):
-        say(f"  {count:5d}  {reason}")

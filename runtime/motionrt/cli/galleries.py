@@ -7,14 +7,17 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from motionrt.cli.console import Progress, print_json, say
-from motionrt.cli.options import add_json, add_mapping, add_models, command, read_mapping, runtime
+from motionrt.cli.console import Progress, print_json
+from motionrt.cli.options import add_json, add_models, command, runtime
+from motionrt.cli.reading import INPUTS, add_reading, in_options, reading
+from motionrt.cli.skipped import SOME_SKIPPED, by_reason, say_skipped
 
 if TYPE_CHECKING:
     from motionrt.retrieval import BuildReport, Gallery
 
-SOME_SKIPPED = 3
-BUILD = """index a folder of motion files (.bvh, .amc, .npz, .glb), with all folders below it
+BUILD = f"""index a folder of motion files, with all folders below it
+Reads {INPUTS}; each animation of a file that
+holds several is a clip of its own. How the files are read (--source-fps, --up, ...) is kept for updates.
 Files that cannot be read are listed with the reason, and the exit code is then 3."""
 UPDATE = """bring a gallery up to date with its folder
 Only new and changed files are read, and files that are gone are dropped."""
@@ -35,7 +38,7 @@ def add(commands: Any) -> None:
     build = command(parts, "build", run_build, BUILD)
     build.add_argument("folder", type=Path, help="where the motion files are")
     build.add_argument("-o", "--out", type=Path, metavar="DIR", help="gallery (default: FOLDER/.motionrt-gallery)")
-    add_mapping(build)
+    add_reading(build)
     update = command(parts, "update", run_update, UPDATE)
     update.add_argument("gallery", type=Path, help="a gallery, or the folder that was indexed")
     for parser in (build, update):
@@ -60,8 +63,8 @@ def run_build(arguments: argparse.Namespace) -> int:
         arguments.folder,
         arguments.out,
         jobs=_jobs(arguments),
-        mapping=read_mapping(arguments.mapping),
         progress=Progress(),
+        **reading(arguments),
     )
     return _finish(report, arguments, time.perf_counter() - started)
 
@@ -90,8 +93,8 @@ def run_info(arguments: argparse.Namespace) -> int:
     print(f"model    {model.name} ({model.fingerprint[:12]})")
     print(f"words    {facts['captions']} captions; attributes: {'yes' if facts['attributes'] else NO_ATTRIBUTES}")
     print(f"skipped  {len(gallery.skipped)}")
-    for skipped in gallery.skipped:
-        print(f"  {skipped.path}: {skipped.reason}")
+    for count, name, reason in by_reason([(skipped.path, skipped.reason) for skipped in gallery.skipped]):
+        print(f"  {name}{f' and {count - 1} more' if count > 1 else ''}: {reason}")
     return 0
 
 
@@ -147,13 +150,8 @@ def _finish(report: BuildReport, arguments: argparse.Namespace, seconds: float) 
     else:
         print(f"{gallery.folder}: {len(gallery)} clips, {len(gallery.windows)} windows, in {seconds:.1f} s")
         print(", ".join(f"{count} {name}" for name, count in counts.items()))
-    for skipped in gallery.skipped:
-        say(f"skipped {skipped.path}: {skipped.reason}")
-    if not gallery.skipped:
-        return 0
-    count = len(gallery.skipped)
-    say(f"motionrt: {count} {'file was' if count == 1 else 'files were'} skipped")
-    return SOME_SKIPPED
+    say_skipped([(skipped.path, in_options(skipped.reason)) for skipped in gallery.skipped])
+    return SOME_SKIPPED if gallery.skipped else 0
 
 
 def _jobs(arguments: argparse.Namespace) -> int:

@@ -44,14 +44,22 @@ def add_reading(parser: argparse.ArgumentParser) -> None:
 
 def reading(arguments: argparse.Namespace) -> dict[str, Any]:
     """What :func:`motionrt.load_motion` is to be called with beside the path."""
-    animation = arguments.animation
     return {
         "mapping": read_mapping(arguments.mapping),
         "fps": arguments.source_fps,
         "up": arguments.up,
-        "animation": int(animation) if animation is not None and animation.isdecimal() else animation,
+        "animation": arguments.animation,
         "asf": arguments.asf,
     }
+
+
+def spare_inputs(output: Path, *inputs: Path) -> None:
+    """InvalidInputError where a command would write over a file that it reads."""
+    from motionrt.errors import InvalidInputError
+
+    for path in inputs:
+        if output.exists() and path.exists() and output.samefile(path):
+            raise InvalidInputError(f"{output} is a file that is read; write to another one")
 
 
 def read_motion(arguments: argparse.Namespace, path: str | Path) -> Motion:

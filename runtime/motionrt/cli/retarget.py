@@ -8,7 +8,7 @@ from typing import Any
 
 from motionrt.cli.console import print_json
 from motionrt.cli.options import add_json, command, read_mapping
-from motionrt.cli.reading import INPUTS, add_reading, read_motion
+from motionrt.cli.reading import INPUTS, add_reading, read_motion, spare_inputs
 
 HELP = """put a motion on your own character (.glb, .bvh)
 The result keeps the character's file as it is, hierarchy, names, units, rest pose and (.glb) mesh, skin
@@ -55,6 +55,7 @@ def run(arguments: argparse.Namespace) -> int:
         moved = motion.retarget_to(rig, mapping=rig_mapping, root_motion=arguments.root_motion)
     except RigError as error:
         raise RigError(str(error).replace("mapping=", "rig_mapping=")) from error
+    spare_inputs(arguments.output, arguments.clip, arguments.to)
     path = moved.save(arguments.output, units=arguments.units, t_pose=arguments.t_pose)
     joints = sum(not name.endswith("_end") for name in moved.names)  # end sites of a BVH are none
     if arguments.json:

@@ -3,48 +3,67 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
 
-from motionrt.errors import MotionFileNotFoundError, MotionRTError
+from motionrt.errors import InvalidInputError, MotionFileNotFoundError, MotionRTError
 from motionrt.formats.gltf.container import GLTF_SUFFIXES
 from motionrt.formats.load import MOTION_SUFFIXES
 from motionrt.untrusted.files import as_path
 
 
-def find_motions(folder: str | Path) -> list[tuple[str, str | None]]:
-    """All motions below ``folder``: sorted relative path with forward slashes, and animation (where there are several).
+@dataclass(frozen=True)
+class FoundMotions:
+    """What is below a folder.
 
-    Hidden files and folders are left out.
+    Attributes:
+        names: motion files, sorted relative paths with forward slashes.
+        closed: folders that cannot be opened, and why.
+    """
+
+    names: list[str]
+    closed: list[tuple[str, str]]
+
+
+def find_motions(folder: str | Path, *, without: str | None = None) -> FoundMotions:
+    """All motion files below ``folder``.
+
+    Suffixes count in any case. Hidden files and folders are left out; linked folders are followed, each real folder
+    once.
+
+    Args:
+        folder: where to look.
+        without: folders below that hold a file of this name are left out.
 
     Raises:
-        MotionFileNotFoundError: no such folder, or not one motion file in it.
+        MotionFileNotFoundError: no such folder.
+        InvalidInputError: a file instead of a folder, or not one motion file in it.
     """
     folder = as_path(folder)
-    names = []
-    for place, folders, files in os.walk(folder):
-        folders[:] = sorted(name for name in folders if not name.startswith("."))
-        motions = [name for name in files if not name.startswith(".") and _suffix(name) in MOTION_SUFFIXES]
-        names += [(Path(place) / name).relative_to(folder).as_posix() for name in motions]
-    if not names:
-        raise MotionFileNotFoundError(f"no motion files ({', '.join(MOTION_SUFFIXES)}) in {folder} or below it")
-    out: list[tuple[str, str | None]] = []
-    for name in sorted(names):
-        out += [(name, animation) for animation in animations_of(folder / name)] or [(name, None)]
-    return out
+    if not folder.exists():
+        raise MotionFileNotFoundError(f"no folder {folder}")
+    if not folder.is_dir():
+        raise InvalidInputError(f"{folder} is a file; give the folder that holds the motion files")
+    closed: list[tuple[str, str]] = []
+    found = sorted(path.relative_to(folder).as_posix() for path in _walk(folder, without, closed))
+    if not found:
+        raise InvalidInputError(f"no motion files ({', '.join(MOTION_SUFFIXES)}) in {folder} or below it")
+    return FoundMotions(found, closed)
 
 
 def animations_of(path: str | Path) -> list[str]:
-    """Names of the animations that move the skeleton, of a glTF or FBX file that holds several; else empty.
+    """What the animations are called that move the skeleton, of a glTF or FBX file that holds several; else empty.
 
     A file that cannot be read has none: reading it says why.
     """
     path = as_path(path)
     try:
-        if _suffix(path.name) in GLTF_SUFFIXES:
+        if path.suffix.lower() in GLTF_SUFFIXES:
             from motionrt.formats.gltf.document import open_glb
 
             names = open_glb(path).animations
-        elif _suffix(path.name) == ".fbx":
+        elif path.suffix.lower() == ".fbx":
             from motionrt.formats.fbx import fbx_animations
 
             names = fbx_animations(path)
@@ -55,5 +74,21 @@ def animations_of(path: str | Path) -> list[str]:
     return names if len(names) > 1 else []
 
 
-def _suffix(name: str) -> str:
-    return Path(name).suffix.lower()
+def _walk(folder: Path, without: str | None, closed: list[tuple[str, str]]) -> Iterator[Path]:
+    def note(error: OSError) -> None:
+        place = Path(str(error.filename)).relative_to(folder).as_posix()
+        closed.append((place, f"cannot be opened: {error.strerror}"))
+
+    seen: set[str] = set()
+    for place, folders, files in os.walk(folder, followlinks=True, onerror=note):
+        real = os.path.realpath(place)
+        if real in seen or (without in files and Path(place) != folder):
+            folders.clear()
+            continue
+        seen.add(real)
+        folders[:] = sorted(name for name in folders if not name.startswith("."))
+        yield from (Path(place, name) for name in files if _is_motion(name))
+
+
+def _is_motion(name: str) -> bool:
+    return not name.startswith(".") and Path(name).suffix.lower() in MOTION_SUFFIXES

@@ -10,7 +10,7 @@ from pathlib import Path
 from motionrt.errors import InvalidInputError, MotionFileWarning
 from motionrt.formats.acclaim import read_amc
 from motionrt.formats.bvh import read_bvh, write_bvh
-from motionrt.formats.fbx import read_fbx
+from motionrt.formats.fbx import read_fbx, write_fbx
 from motionrt.formats.gltf import read_glb, write_glb
 from motionrt.formats.gltf.container import GLTF_SUFFIXES
 from motionrt.formats.leading_pose import drop_leading_tpose
@@ -28,8 +28,8 @@ from motionrt.untrusted.files import as_path
 MOTION_SUFFIXES = (".bvh", ".amc", ".npz", ".npy", ".fbx", *GLTF_SUFFIXES)
 """What :func:`load_motion` reads, in any mixture of upper and lower case."""
 
-WRITABLE_SUFFIXES = (".bvh", ".glb", ".gltf", ".vrma", ".npz")
-"""What :func:`save_motion` writes."""
+WRITABLE_SUFFIXES = (".bvh", ".glb", ".gltf", ".vrma", ".npz", ".fbx")
+"""What :func:`save_motion` writes; ``.fbx`` where Blender is installed."""
 
 
 def load_rig(
@@ -117,7 +117,7 @@ def load_motion(
 
 
 def save_motion(motion: Motion, path: str | Path, *, units: str | None = None, t_pose: bool = False) -> Path:
-    """Write a motion whole or not at all, as ``.bvh``, ``.glb``, ``.gltf``, ``.vrma`` or ``.npz``; returns the path.
+    """Write a motion whole or not at all, as one of :data:`WRITABLE_SUFFIXES`; returns the path.
 
     Args:
         motion: what to write.
@@ -127,6 +127,7 @@ def save_motion(motion: Motion, path: str | Path, *, units: str | None = None, t
 
     Raises:
         InvalidInputError: another suffix, options that the format does not have, or the file cannot be written.
+        MissingDependencyError: a ``.fbx``, and there is no Blender.
     """
     path = as_path(path)
     check_kind(motion, Motion, "motion", "a Motion")
@@ -137,7 +138,7 @@ def save_motion(motion: Motion, path: str | Path, *, units: str | None = None, t
         return write_bvh(motion, path, scale=units_per_metre("cm" if units is None else units), t_pose=t_pose)
     if t_pose or units not in {None, "m"}:
         raise InvalidInputError(f"units and t_pose are for .bvh; a '{suffix}' is in metres and knows its rest pose")
-    return write_npz(motion, path) if suffix == ".npz" else write_glb(motion, path)
+    return {".npz": write_npz, ".fbx": write_fbx}.get(suffix, write_glb)(motion, path)
 
 
 def _suffix(path: Path, known: tuple[str, ...], verb: str) -> str:

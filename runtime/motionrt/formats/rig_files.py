@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -11,6 +12,7 @@ from motionrt.errors import InvalidInputError
 from motionrt.formats.atomic import write_bytes
 from motionrt.formats.bvh.target import BvhTarget
 from motionrt.formats.bvh.write import write_rig_bvh
+from motionrt.formats.fbx.write import fbx_of_glb
 from motionrt.formats.gltf.container import GLTF_SUFFIXES
 from motionrt.formats.gltf.target import GlbTarget
 from motionrt.formats.gltf.write import write_rig_glb
@@ -21,7 +23,7 @@ from motionrt.rigs.target import RigMotion
 RIG_SUFFIXES = (".bvh", ".fbx", *GLTF_SUFFIXES)
 """Files that can be targets of retargeting."""
 
-_WRITTEN = (".bvh", ".glb")
+_WRITTEN = (".bvh", ".glb", ".fbx")
 """What motions of them are written as."""
 
 
@@ -40,7 +42,7 @@ class BvhRigFile:
             return write_bytes(path, self.target.with_animation(_clip(motion, t_pose)))
         if t_pose:
             raise InvalidInputError("t_pose is for .bvh; a .glb knows its rest pose")
-        return write_rig_glb(to_metres(motion), path)
+        return _in_glb(path, motion.fps, lambda glb, fps: write_rig_glb(_at(to_metres(motion), fps), glb))
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,7 +58,11 @@ class GlbRigFile:
             return write_rig_bvh(_clip(motion, t_pose), path, scale=scale)
         if units not in {None, "m"} or t_pose:
             raise InvalidInputError("units and t_pose are for .bvh; a .glb is in metres and knows its rest pose")
-        return write_bytes(path, self.target.with_animation(motion.clip, path.stem))
+
+        def write(glb: Path, fps: float) -> Path:
+            return write_bytes(glb, self.target.with_animation(_at(motion.clip, fps), path.stem))
+
+        return _in_glb(path, motion.fps, write)
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,14 +79,23 @@ class FbxRigFile:
             return write_rig_bvh(written, path, scale=units_per_metre(units or "cm"))
         if units not in {None, "m"} or t_pose:
             raise InvalidInputError("units and t_pose are for .bvh; a .glb is in metres and knows its rest pose")
-        return write_rig_glb(clip, path)
+        return _in_glb(path, motion.fps, lambda glb, fps: write_rig_glb(_at(clip, fps), glb))
 
 
 def _rig_suffix(path: Path) -> str:
     suffix = path.suffix.lower()
     if suffix not in _WRITTEN:
-        raise InvalidInputError(f"{path}: a motion of a rig is written as .bvh or .glb")
+        raise InvalidInputError(f"{path}: a motion of a rig is written as {', '.join(_WRITTEN)}")
     return suffix
+
+
+def _in_glb(path: Path, fps: float, write: Callable[[Path, float], Path]) -> Path:
+    """Write a ``.glb``, or by way of one an ``.fbx``."""
+    return write(path, fps) if path.suffix.lower() == ".glb" else fbx_of_glb(path, fps, write)
+
+
+def _at(clip: RigClip, fps: float) -> RigClip:
+    return replace(clip, fps=fps)
 
 
 def _clip(motion: RigMotion, t_pose: bool) -> RigClip:

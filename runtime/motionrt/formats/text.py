@@ -19,6 +19,10 @@ LARGEST_VALUE = 1e7
 """No coordinate (file units) and no angle (degrees) of a sane file is larger; float32 would be noise."""
 
 
+_PLAIN = "0123456789+-.eE \t\n"
+_BLOCK = 1 << 20  # characters
+
+
 def require_file(path: Path) -> None:
     """Raise MotionFileNotFoundError or FormatError unless ``path`` is an ordinary file."""
     try:
@@ -73,6 +77,34 @@ def to_float(word: str, path: Path, line: int) -> float:
     if abs(value) > LARGEST_VALUE:
         raise FormatError(path, f"{shorten(word)} is too large for a coordinate or an angle", line)
     return value
+
+
+def numbers_in(text: str, count: int) -> npt.NDArray[np.float64] | None:
+    """All numbers of a text that holds nothing else; ``None`` where a word is no finite number of sane size.
+
+    Quick where there are ``count`` of them.
+    """
+    if not text.strip(_PLAIN):
+        try:
+            values = np.fromstring(text, dtype=np.float64, sep=" ")
+        except (ValueError, DeprecationWarning):  # "1-2"; older versions of NumPy end there
+            values = np.empty(0)
+        if values.size == count:
+            return values if bool((np.abs(values) <= LARGEST_VALUE).all()) else None
+    return _in_blocks(text)
+
+
+def _in_blocks(text: str) -> npt.NDArray[np.float64] | None:
+    """All numbers of a text, some lines at a time: words cost much more memory than numbers."""
+    parts, at = [], 0
+    while at < len(text):
+        end = text.find("\n", at + _BLOCK) + 1 or len(text)
+        part = to_floats(text[at:end].split())
+        if part is None:
+            return None
+        parts.append(part)
+        at = end
+    return np.concatenate(parts) if parts else np.empty(0)
 
 
 def to_floats(words: list[str]) -> npt.NDArray[np.float64] | None:

@@ -44,7 +44,9 @@ def check_rotations(rotations: FloatArray, names: Sequence[str]) -> None:
         x, y, z = np.moveaxis(rotations[first : first + BATCH], -2, 0)
         with np.errstate(over="ignore", invalid="ignore"):
             off = np.maximum(abs((x * x).sum(-1) - 1), abs((y * y).sum(-1) - 1))
-            off = np.maximum(np.maximum(off, abs((x * y).sum(-1))), abs(np.cross(x, y) - z).max(-1))
+            off = np.maximum(off, abs((x * y).sum(-1)))
+            for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):  # the cross product, at a third of the time of NumPy's
+                off = np.maximum(off, abs(x[..., i] * y[..., j] - x[..., j] * y[..., i] - z[..., k]))
         if not (off <= NOT_A_ROTATION).all():
             frame, joint = (int(i) for i in np.argwhere(~(off <= NOT_A_ROTATION))[0])
             raise InvalidInputError(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -11,8 +11,8 @@ import numpy as np
 from motionrt.errors import GalleryError
 from motionrt.retrieval import layout
 from motionrt.retrieval.gallery import Gallery
-from motionrt.retrieval.indexing import FileJob, IndexedClip, OpenModel, Outcome, SameContent, index_files
-from motionrt.retrieval.records import ModelStamp, Skipped, window_table
+from motionrt.retrieval.indexing import FileJob, IndexedClip, IndexedFile, OpenModel, Outcome, index_files
+from motionrt.retrieval.records import AS_THEY_ARE, ModelStamp, Reading, Skipped, window_table
 from motionrt.retrieval.sidecars import read_sidecars
 from motionrt.retrieval.windows import MotionEmbedder
 
@@ -37,14 +37,15 @@ class BuildReport:
 
 @dataclass(frozen=True)
 class Plan:
-    """From where to where, and what is there already."""
+    """From where to where, and what is there already: clips by file (of files read in full), and all ids."""
 
     source: Path
     target: Path
     files: list[str]
     closed: list[Skipped]
-    mapping: Mapping[str, str] | None
-    known: dict[str, IndexedClip] = field(default_factory=dict)
+    reading: Reading = AS_THEY_ARE
+    known: dict[str, list[IndexedClip]] = field(default_factory=dict)
+    before: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -61,8 +62,9 @@ def run(plan: Plan, workers: Workers) -> BuildReport:
     """Index what is not known, and write the gallery; the caller holds the lock of its folder."""
     jobs = [_job(plan, name) for name in plan.files if not _same_on_disk(plan, name)]
     outcomes = _outcomes(jobs, workers)
-    skipped = sorted([*plan.closed, *_of_kind(outcomes, Skipped)], key=lambda item: item.path)
-    clips = [clip for name in plan.files if (clip := _clip(name, outcomes, plan.known)) is not None]
+    skipped = sorted([*plan.closed, *_skipped(outcomes)], key=lambda item: item.path)
+    clips = [clip for name in plan.files for clip in _clips(name, outcomes, plan.known)]
+    clips.sort(key=lambda item: item.clip.id)
     if not clips:
         raise GalleryError(
             f"none of the {len(plan.files)} motion files in {plan.source} could be read; "
@@ -77,19 +79,23 @@ def run(plan: Plan, workers: Workers) -> BuildReport:
 
 def _job(plan: Plan, name: str) -> FileJob:
     known = plan.known.get(name)
-    complete = known is not None and known.attributes is not None
-    return FileJob(plan.source, name, plan.mapping, known.clip.sha256 if known and complete else None)
+    return FileJob(plan.source, name, plan.reading, known[0].clip.sha256 if known and _complete(known) else None)
+
+
+def _complete(clips: list[IndexedClip]) -> bool:
+    """Clips of an old gallery have no attributes: their files are read again."""
+    return all(item.attributes is not None for item in clips)
 
 
 def _same_on_disk(plan: Plan, name: str) -> bool:
     known = plan.known.get(name)
-    if known is None or known.attributes is None:  # an old gallery has no attributes: its files are read again
+    if known is None or not _complete(known):
         return False
     try:
         stat = (plan.source / name).stat()
     except OSError:
         return False
-    return (stat.st_size, stat.st_mtime_ns) == (known.clip.size, known.clip.mtime_ns)
+    return (stat.st_size, stat.st_mtime_ns) == (known[0].clip.size, known[0].clip.mtime_ns)
 
 
 def _outcomes(jobs: list[FileJob], workers: Workers) -> dict[str, Outcome]:
@@ -102,17 +108,15 @@ def _outcomes(jobs: list[FileJob], workers: Workers) -> dict[str, Outcome]:
     return outcomes
 
 
-def _clip(name: str, outcomes: dict[str, Outcome], known: dict[str, IndexedClip]) -> IndexedClip | None:
-    """The clip of a file as it is now: just indexed, or from before, or none when the file was skipped."""
+def _clips(name: str, outcomes: dict[str, Outcome], known: dict[str, list[IndexedClip]]) -> Sequence[IndexedClip]:
+    """The clips of a file as it is now: just indexed, or from before."""
     outcome = outcomes.get(name)
-    if isinstance(outcome, IndexedClip):
-        return outcome
-    if isinstance(outcome, Skipped):
-        return None
+    if isinstance(outcome, IndexedFile):
+        return outcome.clips
     before = known[name]
-    if isinstance(outcome, SameContent):
-        return replace(before, clip=replace(before.clip, size=outcome.size, mtime_ns=outcome.mtime_ns))
-    return before
+    if outcome is None:
+        return before
+    return [replace(item, clip=replace(item.clip, size=outcome.size, mtime_ns=outcome.mtime_ns)) for item in before]
 
 
 def _assembled(plan: Plan, clips: list[IndexedClip], skipped: list[Skipped], stamp: ModelStamp) -> Gallery:
@@ -123,22 +127,23 @@ def _assembled(plan: Plan, clips: list[IndexedClip], skipped: list[Skipped], sta
         model=stamp,
         source=plan.source,
         skipped=tuple(skipped),
-        mapping=plan.mapping,
+        reading=plan.reading,
         attributes=np.concatenate([item.attributes for item in clips if item.attributes is not None]),
     )
 
 
 def _report(plan: Plan, gallery: Gallery, outcomes: dict[str, Outcome]) -> BuildReport:
-    read = {name for name, outcome in outcomes.items() if isinstance(outcome, IndexedClip)}
+    files = [outcome for outcome in outcomes.values() if isinstance(outcome, IndexedFile)]
+    read = {item.clip.id for file in files for item in file.clips}
     ids = [clip.id for clip in gallery.clips]
     return BuildReport(
         gallery,
-        added=tuple(name for name in ids if name not in plan.known),
-        changed=tuple(name for name in ids if name in plan.known and name in read),
+        added=tuple(name for name in ids if name not in plan.before),
+        changed=tuple(name for name in ids if name in plan.before and name in read),
         unchanged=tuple(name for name in ids if name not in read),
-        removed=tuple(name for name in plan.known if name not in set(ids)),
+        removed=tuple(name for name in plan.before if name not in set(ids)),
     )
 
 
-def _of_kind(outcomes: dict[str, Outcome], kind: type[Skipped]) -> list[Skipped]:
-    return [outcome for outcome in outcomes.values() if isinstance(outcome, kind)]
+def _skipped(outcomes: dict[str, Outcome]) -> list[Skipped]:
+    return [one for outcome in outcomes.values() if isinstance(outcome, IndexedFile) for one in outcome.skipped]

@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
 
 from motionrt.errors import GalleryError, InvalidInputError
+from motionrt.formats import find_motions
+from motionrt.motion.checks import checked_fps
 from motionrt.retrieval.assembly import BuildReport, Plan, Progress, Workers, run
 from motionrt.retrieval.gallery import Gallery
 from motionrt.retrieval.indexing import IndexedClip, OpenModel
 from motionrt.retrieval.locking import writing
-from motionrt.retrieval.scan import find_motion_files
-from motionrt.retrieval.store import DEFAULT_FOLDER
+from motionrt.retrieval.records import Reading, Skipped
+from motionrt.retrieval.store import DEFAULT_FOLDER, GALLERY_FILE
 from motionrt.untrusted.files import as_path
 from motionrt.untrusted.words import shown
 
@@ -27,11 +30,16 @@ def build_gallery(
     out: str | Path | None = None,
     jobs: int = 1,
     mapping: Mapping[str, str] | None = None,
+    fps: float | None = None,
+    up: str | None = None,
+    asf: str | Path | None = None,
+    animation: int | str | None = None,
     progress: Progress | None = None,
 ) -> BuildReport:
     """Index every motion file below ``folder``; files that cannot be read are reported, not fatal.
 
-    The gallery replaces the one at ``out`` in one step when it is complete, and does not depend on ``jobs``.
+    Each animation of a file that holds several is a clip of its own. How files are read is kept for updates. The
+    gallery replaces the one at ``out`` in one step when it is complete, and does not depend on ``jobs``.
 
     Args:
         folder: searched recursively, every supported format.
@@ -39,18 +47,24 @@ def build_gallery(
         out: where the gallery goes, by default ``.motionrt-gallery`` inside ``folder``.
         jobs: processes.
         mapping: joint names of an unusual rig (``smpl24`` name -> name in the files).
+        fps: frames per second of all files, where they say it wrongly.
+        up: ``"y"`` or ``"z"``, the vertical axis of all files, where they and the body do not tell it rightly.
+        asf: the skeleton of all ``.amc``, a file in ``folder`` or below it; otherwise looked for beside each.
+        animation: the one to read of files that hold several, instead of each.
         progress: called with files done, files in all and the file's name.
 
     Raises:
-        MotionFileNotFoundError, InvalidInputError: no such folder, no motion file in it, or ``jobs`` below 1.
+        MotionFileNotFoundError, InvalidInputError: no such folder, no motion file in it, ``jobs`` below 1, or an option
+            of reading that cannot be.
         GalleryError: no file could be read, the place cannot be written, or another process writes there.
     """
     source = as_path(folder).resolve()
-    files, closed = find_motion_files(source)
+    reading = _reading(source, mapping, fps, up, asf, animation)
+    files, closed = _found(source)
     target = as_path(out) if out is not None else source / DEFAULT_FOLDER
     workers = Workers(open_model, open_model(), _checked_jobs(jobs), progress)
     with writing(target):
-        return run(Plan(source, target, files, closed, mapping), workers)
+        return run(Plan(source, target, files, closed, reading), workers)
 
 
 def update_gallery(
@@ -73,20 +87,50 @@ def update_gallery(
         if old.source is None:
             raise GalleryError(f"the gallery in {folder} was not made from files: nothing to update it from")
         old.check_model(workers.model.fingerprint, workers.model.name)
-        files, closed = find_motion_files(old.source)
-        return run(Plan(old.source, folder, files, closed, old.mapping, _indexed(old)), workers)
+        files, closed = _found(old.source)
+        before = tuple(clip.id for clip in old.clips)
+        return run(Plan(old.source, folder, files, closed, old.reading, _indexed(old), before), workers)
 
 
-def _indexed(gallery: Gallery) -> dict[str, IndexedClip]:
-    """The clips of a gallery with their windows, by id."""
+def _found(source: Path) -> tuple[list[str], list[Skipped]]:
+    """Motion files of a folder, other galleries left out, and what cannot be opened."""
+    found = find_motions(source, without=GALLERY_FILE)
+    return found.names, [Skipped(*one) for one in found.closed]
+
+
+def _indexed(gallery: Gallery) -> dict[str, list[IndexedClip]]:
+    """The clips of a gallery with their windows, by file; without files of which an animation was skipped."""
     bounds = np.searchsorted(gallery.windows["clip"], np.arange(len(gallery) + 1))
-    clips = {}
+    clips: dict[str, list[IndexedClip]] = {}
     for number, clip in enumerate(gallery.clips):
         part = slice(int(bounds[number]), int(bounds[number + 1]))
         spans = [(float(row["start_s"]), float(row["end_s"])) for row in gallery.windows[part]]
         attributes = None if gallery.attributes is None else gallery.attributes[part]
-        clips[clip.id] = IndexedClip(clip, spans, gallery.embeddings[part], attributes)
+        clips.setdefault(clip.file, []).append(IndexedClip(clip, spans, gallery.embeddings[part], attributes))
+    for skipped in gallery.skipped:
+        for mark in re.finditer("#", skipped.path):
+            clips.pop(skipped.path[: mark.start()], None)
     return clips
+
+
+def _reading(
+    source: Path,
+    mapping: Mapping[str, str] | None,
+    fps: float | None,
+    up: str | None,
+    asf: str | Path | None,
+    animation: int | str | None,
+) -> Reading:
+    if up not in {None, "y", "z"}:
+        raise InvalidInputError(f"up must be 'y' or 'z', not {shown(up)}")
+    rate = None if fps is None else checked_fps(fps)
+    chosen = None if animation is None else str(animation)
+    if asf is None:
+        return Reading(mapping, rate, up, None, chosen)
+    skeleton = as_path(asf).resolve()
+    if not skeleton.is_file() or not skeleton.is_relative_to(source):
+        raise InvalidInputError(f"asf= must name a file in {source}, where the gallery finds it again, not {asf}")
+    return Reading(mapping, rate, up, skeleton.relative_to(source).as_posix(), chosen)
 
 
 def _checked_jobs(jobs: int) -> int:

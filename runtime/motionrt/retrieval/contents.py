@@ -11,7 +11,7 @@ from motionrt.errors import FormatError
 from motionrt.formats.motion_pack import MotionPack
 from motionrt.motion.skeleton import FloatArray
 from motionrt.retrieval import store
-from motionrt.retrieval.records import Caption, Clip, ModelStamp, Skipped, WindowTable
+from motionrt.retrieval.records import AS_THEY_ARE, Caption, Clip, ModelStamp, Reading, Skipped, WindowTable
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,13 +24,18 @@ class Contents:
     model: ModelStamp
     source: Path | None = None
     skipped: tuple[Skipped, ...] = ()
-    mapping: Mapping[str, str] | None = None
+    reading: Reading = AS_THEY_ARE
     motions: MotionPack | Path | None = None
     folder: Path | None = None
     neighbours: Path | None = None
     attributes: FloatArray | None = None
     captions: tuple[Caption, ...] = ()
     words_file: Path | None = None
+
+    @property
+    def mapping(self) -> Mapping[str, str] | None:
+        """The joint mapping that the files were read with, if any."""
+        return self.reading.mapping
 
     @cached_property
     def pack(self) -> MotionPack | None:

@@ -44,7 +44,7 @@ class Gallery(Contents):
         model: which model made the embeddings; only the same model may search them.
         source: the folder that was indexed, ``None`` when the clips are not files.
         skipped: files of that folder that could not be indexed.
-        mapping: the joint mapping that the files were read with, if any.
+        reading: how the files were read: joint mapping, frame rate, vertical axis.
         motions: the clips themselves, or the file that holds them, when the gallery carries them.
         folder: where the gallery was opened or saved, ``None`` for one in memory.
         providers: onnxruntime's execution providers of the 8-bit scan, the preferred one first; None is the CPU.
@@ -188,7 +188,7 @@ class Gallery(Contents):
 
     def path(self, clip: Clip) -> Path | None:
         """The clip's file, ``None`` when it has none."""
-        return self.source / clip.id if self.source is not None and clip.is_file else None
+        return self.source / clip.file if self.source is not None and clip.is_file else None
 
     def motion(self, hit: Hit | str) -> Motion:
         """The motion of a hit, cut to its span, or of a whole clip by its id.
@@ -219,7 +219,7 @@ class Gallery(Contents):
         self._check_foreign(clip, path)
         from motionrt.formats import load_motion  # its readers are slow to import
 
-        return load_motion(path, mapping=self.mapping)
+        return load_motion(path, **self.reading.arguments(self.source or path.parent, clip.animation))
 
     def _check_foreign(self, clip: Clip, path: Path) -> None:
         """Of files that lie elsewhere only those are read that were indexed: a strange gallery names no others.

@@ -11,11 +11,11 @@ from dataclasses import fields
 from pathlib import PurePath, PurePosixPath
 from typing import Any, TypeVar
 
-from motionrt.retrieval.records import Caption, Clip, ModelStamp, Skipped
+from motionrt.retrieval.records import Caption, Clip, ModelStamp, Reading, Skipped
 from motionrt.untrusted import Fail, json_text
 from motionrt.untrusted.words import shown
 
-T = TypeVar("T", Caption, Clip, ModelStamp, Skipped)
+T = TypeVar("T", Caption, Clip, ModelStamp, Reading, Skipped)
 ROLES = {"embeddings": ".npy", "windows": ".npy", "attributes": ".npy", "words": ".npz", "motions": ".npz"}
 _SEAL = re.compile(rb'\{\n "checksum": "([0-9a-f]{64})",\n')
 _LONGEST_S = 1e9  # seconds of a clip
@@ -59,7 +59,7 @@ def clips_of(content: object, fail: Fail) -> tuple[Clip, ...]:
     for clip in clips:
         if not (0 <= clip.duration_s < _LONGEST_S and clip.size >= 0):
             raise fail(f"the clip {shown(clip.id)} has an impossible length or size", None)
-        if clip.is_file and not stays_below(clip.id):
+        if clip.is_file and not stays_below(clip.file):
             raise fail(f"the clip {shown(clip.id)} names a file outside the indexed folder", None)
     return clips
 
@@ -85,13 +85,16 @@ def model_of(content: object, fail: Fail) -> ModelStamp:
     return next(iter(_rows(ModelStamp, [content], fail)))
 
 
-def mapping_of(content: object, fail: Fail) -> dict[str, str] | None:
-    """The joint mapping, if there is one."""
-    if content is None:
-        return None
-    if not isinstance(content, dict) or not all(isinstance(value, str) for value in content.values()):
-        raise fail(f"its mapping is {shown(content)}", None)
-    return dict(content)
+def reading_of(mapping: object, options: object, fail: Fail) -> Reading:
+    """How its files are read: the joint mapping, if there is one, and the other options, none of them required."""
+    if mapping is not None and not (isinstance(mapping, dict) and all(isinstance(v, str) for v in mapping.values())):
+        raise fail(f"its mapping is {shown(mapping)}", None)
+    if not isinstance(options, dict) or "mapping" in options:
+        raise fail(f"its options of reading are {shown(options)}", None)
+    reading = next(iter(_rows(Reading, [{**options, "mapping": dict(mapping) if mapping else None}], fail)))
+    if reading.asf is not None and not stays_below(reading.asf):
+        raise fail(f"its skeleton {shown(reading.asf)} lies outside the indexed folder", None)
+    return reading
 
 
 def source_of(content: object, fail: Fail) -> str | None:

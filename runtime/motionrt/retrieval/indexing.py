@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import closing
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 
 import numpy as np
 
 from motionrt.errors import FormatError, MotionRTError
-from motionrt.formats import load_motion
+from motionrt.formats import animations_of, load_motion
 from motionrt.motion.skeleton import FloatArray
-from motionrt.retrieval.records import Clip, Skipped
+from motionrt.retrieval.records import AS_THEY_ARE, Clip, Reading, Skipped
 from motionrt.retrieval.store import digest
 from motionrt.retrieval.windows import MotionEmbedder, embed_windows, measured, motion_features, spans_in_seconds
 
@@ -27,7 +27,7 @@ class FileJob:
 
     source: Path
     id: str
-    mapping: Mapping[str, str] | None = None
+    reading: Reading = AS_THEY_ARE
     known_sha256: str | None = None
 
 
@@ -41,6 +41,14 @@ class IndexedClip:
     attributes: FloatArray | None = None
 
 
+@dataclass(frozen=True, eq=False)
+class IndexedFile:
+    """What a file gave: a clip for each of its animations, and those that could not be read."""
+
+    clips: tuple[IndexedClip, ...] = ()
+    skipped: tuple[Skipped, ...] = ()
+
+
 @dataclass(frozen=True)
 class SameContent:
     """The file was only touched: its content is what was indexed before."""
@@ -49,26 +57,40 @@ class SameContent:
     mtime_ns: int
 
 
-Outcome = IndexedClip | SameContent | Skipped
+Outcome = IndexedFile | SameContent
 
 
 def index_file(job: FileJob, model: MotionEmbedder) -> Outcome:
-    """Read and embed one file; whatever is wrong with it becomes a reason to skip it."""
+    """Read and embed one file, each animation of it; whatever is wrong becomes a reason to skip it."""
     path = job.source / job.id
     try:
         stat, checksum = path.stat(), digest(path)
         if checksum == job.known_sha256:
             return SameContent(stat.st_size, stat.st_mtime_ns)
-        motion = load_motion(path, mapping=job.mapping)
+        names = [] if job.reading.animation is not None else animations_of(path)
+    except Exception as error:  # noqa: BLE001 - one odd file among thousands must not end the build
+        return IndexedFile(skipped=(Skipped(job.id, _reason(error)),))
+    whole = Clip(job.id, 0.0, stat.st_size, stat.st_mtime_ns, checksum)
+    clips = [replace(whole, id=f"{job.id}#{name}", animation=name) for name in names] or [whole]
+    found = [_indexed(job, clip, model) for clip in clips]
+    indexed = tuple(one for one in found if isinstance(one, IndexedClip))
+    skipped = [one for one in found if isinstance(one, Skipped)]
+    if not indexed and len({one.reason for one in skipped}) == 1:  # what is wrong is wrong with the file
+        skipped = [Skipped(job.id, skipped[0].reason)]
+    return IndexedFile(indexed, tuple(skipped))
+
+
+def _indexed(job: FileJob, clip: Clip, model: MotionEmbedder) -> IndexedClip | Skipped:
+    try:
+        motion = load_motion(job.source / job.id, **job.reading.arguments(job.source, clip.animation))
         features = motion_features(motion)
         if not np.isfinite(features).all():
-            return Skipped(job.id, "its positions are too large for numbers")
-    except Exception as error:  # noqa: BLE001 - one odd file among thousands must not end the build
-        return Skipped(job.id, _reason(error))
+            return Skipped(clip.id, "its positions are too large for numbers")
+    except Exception as error:  # noqa: BLE001 - as above
+        return Skipped(clip.id, _reason(error))
     embeddings, spans = embed_windows(model, features)
-    clip = Clip(job.id, motion.duration, stat.st_size, stat.st_mtime_ns, checksum)
     seconds = spans_in_seconds(spans, motion.duration)
-    return IndexedClip(clip, seconds, embeddings, measured(motion, seconds))
+    return IndexedClip(replace(clip, duration_s=motion.duration), seconds, embeddings, measured(motion, seconds))
 
 
 def index_files(

@@ -15,8 +15,8 @@ from motionrt.motion.attributes import ATTRIBUTES
 from motionrt.motion.skeleton import FloatArray
 from motionrt.retrieval import store
 from motionrt.retrieval.contents import Contents
-from motionrt.retrieval.head import array_files, captions_of, clips_of, mapping_of, model_of, skipped_of, source_of
-from motionrt.retrieval.records import WINDOW_TYPE, WindowTable
+from motionrt.retrieval.head import array_files, captions_of, clips_of, model_of, reading_of, skipped_of, source_of
+from motionrt.retrieval.records import WINDOW_TYPE, Clip, WindowTable
 from motionrt.retrieval.words import WordIndex
 
 _CHECKED = 256 * 2**20  # bytes of embeddings that are checked at the first search
@@ -92,7 +92,7 @@ def _read(folder: Path, head: dict[str, Any]) -> Contents:
         model=model_of(head.get("model"), fail),
         source=_source(folder, source_of(head.get("source"), fail)),
         skipped=skipped_of(head.get("skipped"), fail),
-        mapping=mapping_of(head.get("mapping"), fail),
+        reading=reading_of(head.get("mapping"), head.get("reading", {}), fail),
         motions=folder / files["motions"] if "motions" in files else None,
         folder=folder,
         neighbours=folder / store.neighbours_name(files["embeddings"]),
@@ -131,15 +131,24 @@ def _all_named(owners: npt.NDArray[np.integer[Any]], clips: int) -> bool:
 
 
 def _head(gallery: Contents, folder: Path) -> dict[str, Any]:
+    options = {
+        name: value for name, value in asdict(gallery.reading).items() if name != "mapping" and value is not None
+    }
     return {
         "model": asdict(gallery.model),
         "source": _noted_source(gallery.source, folder),
         "mapping": dict(gallery.mapping) if gallery.mapping else None,
-        "clips": [asdict(clip) for clip in gallery.clips],
+        **({"reading": options} if options else {}),
+        "clips": [_clip(clip) for clip in gallery.clips],
         "skipped": [asdict(skipped) for skipped in gallery.skipped],
         **({} if gallery.attributes is None else {"attributes": list(ATTRIBUTES)}),
         **({"captions": [asdict(caption) for caption in gallery.captions]} if gallery.captions else {}),
     }
+
+
+def _clip(clip: Clip) -> dict[str, Any]:
+    values = asdict(clip)
+    return values if clip.animation is not None else {name: values[name] for name in values if name != "animation"}
 
 
 def _noted_source(source: Path | None, folder: Path) -> str | None:

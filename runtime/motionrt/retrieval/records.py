@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -16,12 +19,14 @@ class Clip:
     """One motion of a gallery.
 
     Attributes:
-        id: unique name; for a file its path below the indexed folder, with forward slashes.
+        id: unique name; for a file its path below the indexed folder, with forward slashes, and ``#animation`` after it
+            where the file holds several.
         duration_s: length in seconds.
         size: bytes of the file, 0 without one.
         mtime_ns: modification time of the file, nanoseconds, 0 without one.
         sha256: checksum of the file, empty without one.
         text: what the clip shows, where that is known.
+        animation: name or index of the clip's animation in a file that holds several.
     """
 
     id: str
@@ -30,6 +35,12 @@ class Clip:
     mtime_ns: int = 0
     sha256: str = ""
     text: str | None = None
+    animation: str | None = None
+
+    @property
+    def file(self) -> str:
+        """Path of the clip's file below the indexed folder."""
+        return self.id if self.animation is None else self.id.removesuffix(f"#{self.animation}")
 
     @property
     def is_file(self) -> bool:
@@ -61,6 +72,35 @@ class Skipped:
 
     path: str
     reason: str
+
+
+@dataclass(frozen=True)
+class Reading:
+    """How the files of a library are read, where they do not say it themselves, or say it wrongly.
+
+    Attributes:
+        mapping: ``smpl24`` joint name -> joint name in the files.
+        fps: frames per second of all files.
+        up: their vertical axis, ``"y"`` or ``"z"``.
+        asf: the skeleton of all ``.amc``, a path below the indexed folder.
+        animation: the one to read of files that hold several; otherwise each is a clip of its own.
+    """
+
+    mapping: Mapping[str, str] | None = None
+    fps: float | None = None
+    up: str | None = None
+    asf: str | None = None
+    animation: str | None = None
+
+    def arguments(self, source: Path, animation: str | None = None) -> dict[str, Any]:
+        """What :func:`motionrt.load_motion` is to be called with, for a file of the folder ``source``."""
+        asf = None if self.asf is None else source / self.asf
+        chosen = self.animation if animation is None else animation
+        return {"mapping": self.mapping, "fps": self.fps, "up": self.up, "asf": asf, "animation": chosen}
+
+
+AS_THEY_ARE = Reading()
+"""Files say all themselves."""
 
 
 @dataclass(frozen=True)

@@ -159,7 +159,9 @@ def _documents(
     for caption in captions:
         about[caption.clip].append(caption)
     whole = [
-        (stems(str(PurePosixPath(clip.id).with_suffix(""))) if names else []) + stems(clip.text or "") for clip in clips
+        (stems(f"{PurePosixPath(clip.file).with_suffix('')} {clip.animation or ''}") if names else [])
+        + stems(clip.text or "")
+        for clip in clips
     ]
     said = []
     for row in windows:

@@ -10,15 +10,17 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
+import numpy.typing as npt
 
 from motionrt.motion.motion import Motion
 from motionrt.motion.rotations import Array
 from motionrt.motion.skeleton import SMPL24
 from motionrt.rigs.mapping import draft_mapping
-from motionrt.rigs.plain_kinematics import angles_between, joint_transforms
+from motionrt.rigs.plain_kinematics import angles_between
+from motionrt.rigs.played import Played, played_on
 from motionrt.rigs.probes import probe_motions
-from motionrt.rigs.retarget_out import to_rig
 from motionrt.rigs.target import Rig
+from motionrt.rigs.twists import twists
 
 POSITION_GATE_CM, ANGLE_GATE = 2.0, 5.0
 _FLIP = 60.0
@@ -37,7 +39,8 @@ class ProbeResult:
         hands_cm: distance of the wrists from where the rig's bones in the probe's directions end.
         feet_cm: distance of toes near the floor from those of the probe; of ankles higher up the same as of the wrists.
         limbs: angle between limbs; of legs only where the foot is not near the floor.
-        twist: turn of limbs about their own length against the probe, what is constant left out.
+        twist: turn of limbs about their own length against the probe, what is constant left out; of bent legs whose
+            foot is near the floor, of the knee's hinge against its bend, and of where it points against the probe's.
         ground_cm: how far the lower toe is from where it stands at rest, while that of the probe is on the floor.
         flips: steps in which a driven joint turns by more than 60 degrees further than any joint of the probe.
     """
@@ -91,7 +94,7 @@ def certify(rig: Rig, *, mapping: Mapping[str, str] | None = None) -> Certificat
     given = {**rig.clip.known, **(mapping or {})} or None
     roles = draft_mapping(rig.clip, given)
     motions = probe_motions()
-    played = {name: _played(motion, rig, given, roles) for name, motion in motions.items()}
+    played = {name: played_on(motion, rig, given, roles) for name, motion in motions.items()}
     results = tuple(_measured(name, motions[name], played[name]) for name in motions)
     moved = np.max([np.abs(np.diff(one.rotations, axis=0)).max(axis=(0, 2, 3)) for one in played.values()], axis=0)
     names = [(name, bool(move > 1e-4)) for name, move in zip(rig.clip.names, moved, strict=True)]
@@ -106,41 +109,7 @@ def certify(rig: Rig, *, mapping: Mapping[str, str] | None = None) -> Certificat
     )
 
 
-@dataclass(frozen=True, eq=False)
-class _Played:
-    """A probe on the rig, Y up, human size: ``places (F, J, 3)`` metres, ``turns`` global and ``rotations`` local."""
-
-    places: Array
-    turns: Array
-    rotations: Array
-    roles: Mapping[str, int]
-    sole: float
-
-    def bone(self, upper: str, lower: str) -> Array:
-        return np.asarray(self.places[:, self.roles[lower]] - self.places[:, self.roles[upper]])
-
-
-def _played(motion: Motion, rig: Rig, mapping: Mapping[str, str] | None, roles: Mapping[str, str]) -> _Played:
-    out = to_rig(motion, rig, mapping=mapping)
-    transforms = joint_transforms(out.clip)
-    up = out.up.astype(np.float64) / np.linalg.norm(out.up)
-    world = _upright(up)
-    places = transforms[..., :3, 3] @ world.T / out.units_per_metre
-    index = {role: out.clip.names.index(name) for role, name in roles.items()}
-    sole = float(out.sole) / out.units_per_metre
-    return _Played(places, world @ transforms[..., :3, :3], out.clip.rotations.astype(np.float64), index, sole)
-
-
-def _upright(up: Array) -> Array:
-    """The shortest rotation that takes ``up`` to +Y, by its closed form."""
-    axis, cosine = np.cross(up, [0.0, 1.0, 0.0]), float(up[1])
-    if cosine < -1 + 1e-9:
-        return np.diag([1.0, -1.0, -1.0])
-    cross = np.array([[0, -axis[2], axis[1]], [axis[2], 0, -axis[0]], [-axis[1], axis[0], 0]])
-    return np.asarray(np.eye(3) + cross + cross @ cross / (1 + cosine))
-
-
-def _measured(name: str, motion: Motion, played: _Played) -> ProbeResult:
+def _measured(name: str, motion: Motion, played: Played) -> ProbeResult:
     source = motion.positions().astype(np.float64)
     ends = {line[-1]: _end_errors(source, played, line) for line in (_ARMS, _LEGS)}
     legs = np.where(_standing(source, played), 0.0, _limb_angles(source, played, _LEGS))
@@ -150,7 +119,7 @@ def _measured(name: str, motion: Motion, played: _Played) -> ProbeResult:
         hands_cm=_worst(100 * ends["wrist"]),
         feet_cm=_worst(100 * _feet(ends["ankle"], source, played)),
         limbs=_worst(limbs),
-        twist=_worst(np.concatenate([_twists(motion, played, line) for line in (_ARMS, _LEGS)])),
+        twist=_worst(twists(motion, played, _standing(source, played))),
         ground_cm=_worst(100 * _ground(source, played)),
         flips=_flips(motion, played),
     )
@@ -165,7 +134,7 @@ def _source_bone(source: Array, upper: str, lower: str) -> Array:
     return np.asarray(source[:, SMPL24.index(lower)] - source[:, SMPL24.index(upper)])
 
 
-def _limb_angles(source: Array, played: _Played, line: tuple[str, str, str]) -> Array:
+def _limb_angles(source: Array, played: Played, line: tuple[str, str, str]) -> Array:
     rows = [
         angles_between(_source_bone(source, f"{s}_{a}", f"{s}_{b}"), played.bone(f"{s}_{a}", f"{s}_{b}"))
         for s in _SIDES
@@ -174,7 +143,7 @@ def _limb_angles(source: Array, played: _Played, line: tuple[str, str, str]) -> 
     return np.stack(rows)
 
 
-def _standing(source: Array, played: _Played) -> Array:
+def _standing(source: Array, played: Played) -> npt.NDArray[np.bool_]:
     """``(4, F)``: whether the foot of each leg bone is near the floor, where it is put by bending the leg."""
     if "left_foot" not in played.roles:
         return np.zeros((4, 1), dtype=bool)
@@ -182,7 +151,7 @@ def _standing(source: Array, played: _Played) -> Array:
     return np.repeat(low, 2, axis=0)
 
 
-def _end_errors(source: Array, played: _Played, line: tuple[str, str, str]) -> Array:
+def _end_errors(source: Array, played: Played, line: tuple[str, str, str]) -> Array:
     """Distances ``(2, F)`` of wrists or ankles from where the rig's bones would end in the source's directions."""
     rows = []
     for side in _SIDES:
@@ -195,7 +164,7 @@ def _end_errors(source: Array, played: _Played, line: tuple[str, str, str]) -> A
     return np.stack(rows)
 
 
-def _feet(errors: Array, source: Array, played: _Played) -> Array:
+def _feet(errors: Array, source: Array, played: Played) -> Array:
     """Distances ``(2, F)`` of toes near the floor from those of the source, of ankles high up as in ``errors``."""
     if "left_foot" not in played.roles:
         return errors
@@ -207,7 +176,7 @@ def _feet(errors: Array, source: Array, played: _Played) -> Array:
     return np.stack(rows)
 
 
-def _ground(source: Array, played: _Played) -> Array:
+def _ground(source: Array, played: Played) -> Array:
     if "left_foot" not in played.roles:
         return np.zeros((0, 1))
     toes = np.min([source[:, SMPL24.index(f"{side}_foot"), 1] for side in _SIDES], axis=0)
@@ -215,35 +184,7 @@ def _ground(source: Array, played: _Played) -> Array:
     return np.asarray(np.abs(found - played.sole - toes)[None])
 
 
-def _twists(motion: Motion, played: _Played, line: tuple[str, str, str]) -> Array:
-    """Turn ``(4, F)`` in degrees of limbs about their own length against the source's, around its median."""
-    ours = motion.global_rotations().astype(np.float64)
-    rows = []
-    for side in _SIDES:
-        for upper, lower in ((f"{side}_{line[0]}", f"{side}_{line[1]}"), (f"{side}_{line[1]}", f"{side}_{line[2]}")):
-            joint, theirs = SMPL24.index(upper), played.turns[:, played.roles[upper]]
-            relative = np.swapaxes(ours[:, joint], -1, -2) @ theirs
-            change = relative @ np.swapaxes(relative[:1], -1, -2)
-            bone = SMPL24.offsets[SMPL24.index(lower)].astype(np.float64)
-            rows.append(_turn_about(change, bone / np.linalg.norm(bone)))
-    turns = np.stack(rows)
-    return np.asarray(np.abs(turns - np.median(turns, axis=-1, keepdims=True)))
-
-
-def _turn_about(rotations: Array, axis: Array) -> Array:
-    """Signed angle in degrees of the part of ``(F, 3, 3)`` that turns about ``axis``  [swing-twist decomposition]."""
-    skew = np.stack(
-        [
-            rotations[:, 2, 1] - rotations[:, 1, 2],
-            rotations[:, 0, 2] - rotations[:, 2, 0],
-            rotations[:, 1, 0] - rotations[:, 0, 1],
-        ],
-        axis=-1,
-    )
-    return np.asarray(np.degrees(2 * np.arctan2(skew @ axis, 1 + np.trace(rotations, axis1=-2, axis2=-1))))
-
-
-def _flips(motion: Motion, played: _Played) -> int:
+def _flips(motion: Motion, played: Played) -> int:
     ours = _steps(motion.rotations.astype(np.float64)).max(axis=1)
     return int((_steps(played.rotations).max(axis=1) > ours + _FLIP).sum())
 
@@ -254,7 +195,7 @@ def _steps(rotations: Array) -> Array:
     return np.asarray(np.degrees(np.arccos(np.clip((trace - 1) / 2, -1, 1))))
 
 
-def _hip_height(played: _Played) -> float:
+def _hip_height(played: Played) -> float:
     hips = 0.5 * (played.places[:, played.roles["left_hip"], 1] + played.places[:, played.roles["right_hip"], 1])
     return float(np.median(hips))
 
@@ -264,6 +205,6 @@ def _source_hip_height(motion: Motion) -> float:
     return float(np.median(places))
 
 
-def _left_is_left(played: _Played) -> bool:
+def _left_is_left(played: Played) -> bool:
     reach = [float(np.ptp(played.places[:, played.roles[f"{side}_wrist"], 1])) for side in _SIDES]
     return reach[0] > 0.3 and reach[1] < 0.1 * reach[0]

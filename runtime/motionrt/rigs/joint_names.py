@@ -38,7 +38,37 @@ _SIDES = {
     **dict.fromkeys(("left", "l", "lft", "lf"), "left"),
     **dict.fromkeys(("right", "r", "rgt", "rt"), "right"),
 }
-_SIDE_SIGNS = {"左": "left", "右": "right"}
+_JAPANESE = {
+    "左": "left",
+    "右": "right",
+    "足首": "ankle",
+    "つま先": "toe",
+    "ひざ": "knee",
+    "膝": "knee",
+    "足": "thigh",
+    "手首": "wrist",
+    "ひじ": "elbow",
+    "肘": "elbow",
+    "腕捩": "twist",
+    "手捩": "twist",
+    "捩": "twist",
+    "腕": "upperarm",
+    "肩": "clavicle",
+    "首": "neck",
+    "頭": "head",
+    "中指": "middle",
+    "人指": "index",
+    "人差指": "index",
+    "親指": "thumb",
+    "薬指": "ring",
+    "小指": "little",
+    "下半身": "pelvis",
+    "ＩＫ": "ik",
+    "先": "tip",
+    "目": "eye",
+    "髪": "hair",
+}
+_SIGNS = re.compile("|".join(sorted(_JAPANESE, key=len, reverse=True)))
 _NOISE = {"bone", "joint", "jnt", "jt", "bend", "bind", "def", "sk", "skel", "c"}
 _HELPERS = frozenset(
     {
@@ -59,6 +89,9 @@ _HELPERS = frozenset(
     | {"eye", "jaw", "ear", "tongue", "cheek", "brow", "lip", "hair", "skirt", "cloth", "breast", "bust"}
     | {"buttock", "butt", "thumb", "ring", "pinky", "little", "metacarpal", "metatarsal", "metatarsals"}
     | {"prop", "weapon", "helper", "hlp", "socket", "camera", "vb", "mch", "proxy", "aim", "offset", "dummy"}
+)
+_ATTACHMENTS = frozenset(
+    {"ik", "pole", "target", "twist", "twst", "roll", "ctrl", "control", "prop", "weapon", "socket", "camera"}
 )
 _WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+")
 _GLUED = re.compile(r"^(left|right|l|r)([a-z]{3,})$|^([a-z]{3,})(left|right)$")
@@ -95,15 +128,21 @@ def read_joint_name(name: str) -> NameReading | None:
 
 def side_of(name: str) -> str:
     """``"left"``, ``"right"`` or ``""``: the side that ``name`` states, whatever else it says."""
-    return _take_side(words_of(name))[0] or next((side for sign, side in _SIDE_SIGNS.items() if sign in name), "")
+    return _take_side(words_of(name))[0]
+
+
+def is_attachment(name: str) -> bool:
+    """Whether a joint of that name is held by a body or steers it (weapon, twist bone, target) but is no part of it."""
+    return not _ATTACHMENTS.isdisjoint(words_of(name))
 
 
 def words_of(name: str) -> list[str]:
     """The words of a joint's name: ``"mixamorig:LeftUpLeg"`` -> ``["left", "up", "leg"]``.
 
-    Glued sides are split: ``"lfemur"`` -> ``["l", "femur"]``.
+    Glued sides are split: ``"lfemur"`` -> ``["l", "femur"]``. Those of MMD are translated: ``"左足"`` -> ``["left",
+    "thigh"]``.
     """
-    bare = re.split(r"[:|]", name)[-1]
+    bare = _SIGNS.sub(lambda sign: f" {_JAPANESE[sign.group()]} ", re.split(r"[:|]", name)[-1])
     return [part for word in _WORD.findall(bare) for part in _split_glued(word.lower())]
 
 

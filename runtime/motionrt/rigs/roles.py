@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from itertools import pairwise
 
+import numpy as np
+
 from motionrt.errors import RigError
 from motionrt.motion.skeleton import SMPL24
 from motionrt.rigs.names import roles_from_names
@@ -16,6 +18,12 @@ from motionrt.rigs.tree import RigTree
 LEGS = ("hip", "knee", "ankle")
 ARMS = ("shoulder", "elbow", "wrist")
 REQUIRED = tuple(f"{side}_{part}" for part in LEGS + ARMS for side in ("left", "right"))
+
+_ALIKE = 1.5
+"""How many times as long the one of two like bones may be."""
+
+_ALONG = 0.9
+"""Cosine of the angle to the shank from which on a nameless end is no toe."""
 
 
 @dataclass(frozen=True)
@@ -88,14 +96,38 @@ def _given_roles(tree: RigTree, mapping: Mapping[str, str]) -> dict[str, int]:
 
 
 def _completed(tree: RigTree, roles: dict[str, int]) -> dict[str, int]:
-    """Fill in what needs no name: limb ends that are just the next joint (or end site) of the chain."""
-    for side in ("left", "right"):
-        for role, above in (("wrist", "elbow"), ("hand", "wrist"), ("foot", "ankle")):
+    """Fill in what needs no name: limb ends that are just the next joint (or end site) of the chain.
+
+    Hands and toes only where both sides have one, about as long: what hangs on one side alone is something else, and an
+    end that goes on along the shank is no toe.
+    """
+    for role, above in (("wrist", "elbow"), ("hand", "wrist"), ("foot", "ankle")):
+        found = {}
+        for side in ("left", "right"):
             if f"{side}_{role}" not in roles and f"{side}_{above}" in roles:
                 below = tree.next_away(roles[f"{side}_{above}"])
-                if below is not None:
-                    roles[f"{side}_{role}"] = below
+                if below is not None and not (role == "foot" and _straight_on(tree, roles, side, below)):
+                    found[f"{side}_{role}"] = below
+        if role == "wrist" or _alike(tree, {**roles, **found}, role, above):
+            roles |= found
     return roles
+
+
+def _straight_on(tree: RigTree, roles: Mapping[str, int], side: str, end: int) -> bool:
+    """Whether a joint mostly stands where the shank would end if it were longer."""
+    knee, ankle = roles.get(f"{side}_knee"), roles[f"{side}_ankle"]
+    if knee is None:
+        return False
+    shank, foot = tree.places[:, ankle] - tree.places[:, knee], tree.places[:, end] - tree.places[:, ankle]
+    sizes = np.linalg.norm(shank, axis=-1) * np.linalg.norm(foot, axis=-1)
+    return bool(np.median((shank * foot).sum(axis=-1) / np.maximum(sizes, 1e-12)) > _ALONG)
+
+
+def _alike(tree: RigTree, roles: Mapping[str, int], role: str, above: str) -> bool:
+    """Whether both sides have the joint, about as far from the one above it."""
+    ends = [(roles.get(f"{side}_{above}"), roles.get(f"{side}_{role}")) for side in ("left", "right")]
+    spans = [tree.span(upper, lower) for upper, lower in ends if upper is not None and lower is not None]
+    return len(spans) == 2 and max(spans) <= _ALIKE * min(spans)
 
 
 def _missing(roles: Mapping[str, int]) -> list[str]:

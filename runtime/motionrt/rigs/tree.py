@@ -10,6 +10,7 @@ import numpy as np
 
 from motionrt.motion.rotations import Array
 from motionrt.rigs.clip import RigClip
+from motionrt.rigs.joint_names import is_attachment
 
 _COINCIDENT = 0.08
 """A bone shorter than this share of the median bone counts as none: its two joints stand in one place."""
@@ -118,10 +119,13 @@ class RigTree:
         return float(sum(self.lengths[joint] for joint in self.path(upper, lower)))
 
     def next_away(self, joint: int) -> int | None:
-        """The nearest descendant that stands in another place than ``joint``; of siblings the farthest."""
+        """The nearest descendant that stands in another place than ``joint``; of siblings the farthest.
+
+        What is held or steers, by its name, is none.
+        """
         here = [joint]
         while here:
-            below = [child for upper in here for child in self.children[upper]]
+            below = [child for upper in here for child in self.children[upper] if not is_attachment(self.names[child])]
             away = [child for child in below if self.span(joint, child) > self.negligible]
             if away:
                 return max(away, key=lambda child: float(self.lengths[child]))

@@ -227,6 +227,10 @@ class Search(Service):
         *,
         jobs: int = 1,
         mapping: Mapping[str, str] | None = None,
+        fps: float | None = None,
+        up: str | None = None,
+        asf: str | Path | None = None,
+        animation: int | str | None = None,
         progress: Progress | None = None,
     ) -> BuildReport:
         """Index a folder of motion files; see :func:`motionrt.retrieval.build_gallery`.
@@ -237,7 +241,18 @@ class Search(Service):
         from motionrt.retrieval import build_gallery
 
         check_functions(progress=progress)
-        return build_gallery(folder, self._opener(), out=out, jobs=jobs, mapping=mapping, progress=progress)
+        return build_gallery(
+            folder,
+            self._opener(),
+            out=out,
+            jobs=jobs,
+            mapping=mapping,
+            fps=fps,
+            up=up,
+            asf=asf,
+            animation=animation,
+            progress=progress,
+        )
 
     def update_gallery(self, gallery: str | Path, *, jobs: int = 1, progress: Progress | None = None) -> BuildReport:
         """Index what is new or changed, drop what is gone; see :func:`motionrt.retrieval.update_gallery`."""

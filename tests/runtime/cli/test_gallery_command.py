@@ -45,6 +45,30 @@ def test_skipped_files_are_listed_and_the_exit_code_says_so(
     assert "1 file was skipped" in err
 
 
+def test_hundreds_of_skipped_files_are_counted_by_reason(
+    library: Path, run_json: Callable[..., Any], capsys: pytest.CaptureFixture[str]
+) -> None:
+    for number in range(120):
+        (library / f"short {number}.bvh").write_text("HIERARCHY\nROOT", encoding="utf-8")
+        (library / f"foreign {number}.npz").write_bytes(b"nothing")
+    assert main(["gallery", "build", str(library), "--jobs", "1"]) == 3
+    lines = capsys.readouterr().err.splitlines()
+    assert len([line for line in lines if line.startswith("skipped foreign")]) == 20
+    assert len(lines) < 26
+    assert "skipped 220 more" in lines[20]
+    assert [line.split()[0] for line in lines[21:-1]] == ["120", "120"]
+    assert lines[-1] == "motionrt: 240 files were skipped"
+    assert len(run_json("gallery", "info", library)["skipped"]) == 240
+    assert main(["gallery", "info", str(library)]) == 0
+    assert "and 119 more" in capsys.readouterr().out
+
+
+def test_reading_options_hold_for_every_file_and_are_kept(library: Path, run_json: Callable[..., Any]) -> None:
+    built = run_json("gallery", "build", library, "--jobs", 1, "--source-fps", 60, "--up", "y")
+    assert built["hours"] == pytest.approx((1 + 1 + 5) / 3600, abs=1e-4)
+    assert run_json("gallery", "update", library, "--jobs", 1)["hours"] == built["hours"]
+
+
 def test_update_counts_what_changed(gallery: Path, run_json: Callable[..., Any]) -> None:
     standing(20).save(gallery / "stand.bvh")
     (gallery / "walk.bvh").unlink()

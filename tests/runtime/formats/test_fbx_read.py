@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -11,7 +12,7 @@ from fbx_files import write_fbx
 from numpy.testing import assert_allclose
 from retarget_rigs import Z_UP, person, rig
 
-from motionrt.errors import FormatError, MissingDependencyError
+from motionrt.errors import FormatError, InvalidInputError, MissingDependencyError
 from motionrt.formats import fbx, load_motion, load_rig, load_target
 from motionrt.motion import SMPL24
 
@@ -41,7 +42,7 @@ def test_another_rate_samples_the_same_take(tmp_path: Path) -> None:
     path = write_fbx(rig(person(31), NAMES), tmp_path / "walk.fbx", centimetres_per_unit=100, up="y")
     assert load_rig(path, fps=60).frames == 61
     assert load_rig(path, animation="Take 001").frames == 31
-    with pytest.raises(FormatError, match="no one animation 'Run'; it has: Take 001"):
+    with pytest.raises(FormatError, match="no animation 'Run'; it has: Take 001"):
         load_rig(path, animation="Run")
 
 
@@ -72,3 +73,22 @@ def test_without_the_library_the_error_says_what_to_install(tmp_path: Path, monk
     path.write_bytes(b"Kaydara FBX Binary  \x00\x1a\x00")
     with pytest.raises(MissingDependencyError, match=r"motionrt\[fbx\].*\.glb or \.bvh"):
         fbx.read_fbx(path)
+
+
+def test_without_blender_writing_says_what_it_needs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("MOTIONRT_BLENDER", str(tmp_path / "no such program"))
+    with pytest.raises(MissingDependencyError, match="writing FBX needs Blender"):
+        person(2).save(tmp_path / "walk.fbx")
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="writes a shell script in place of Blender")
+def test_a_blender_that_fails_is_quoted_and_leaves_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    program = tmp_path / "bin" / "blender"
+    program.parent.mkdir()
+    program.write_text("#!/bin/sh\necho 'no importer here' >&2\nexit 1\n", encoding="utf-8")
+    program.chmod(0o755)
+    monkeypatch.setenv("MOTIONRT_BLENDER", str(program))
+    with pytest.raises(InvalidInputError, match="no importer here"):
+        person(2).save(tmp_path / "walk.fbx")
+    assert [path.name for path in tmp_path.iterdir()] == ["bin"]

@@ -164,7 +164,7 @@ def test_several_animations_ask_for_a_choice_but_poses_do_not_count(tmp_path: Pa
         load_motion(path)
     assert load_motion(path, animation="wave").frames == 11
     assert load_motion(path, animation=0).frames == 31
-    with pytest.raises(FormatError, match="no one animation 'run'; it has: bend, T-Pose, wave"):
+    with pytest.raises(FormatError, match="no animation 'run'; it has: bend, T-Pose, wave"):
         load_motion(path, animation="run")
 
 
@@ -201,7 +201,7 @@ def test_two_figures_ask_for_a_choice(tmp_path: Path) -> None:
     assert read_glb(path, skin="one").names == tuple(person.names)
     assert read_glb(path, skin=1).names[0] == "Hips"
     assert load_motion(path, skin="two").frames == 31
-    with pytest.raises(FormatError, match="no one skin 'three'; it has: one, two"):
+    with pytest.raises(FormatError, match="no skin 'three'; it has: one, two"):
         load_rig(path, skin="three")
 
 

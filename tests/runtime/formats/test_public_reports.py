@@ -14,7 +14,7 @@ import pytest
 from retarget_rigs import named, person, renamed, rig
 
 from motionrt.errors import FormatError, InvalidInputError, MotionFileWarning, RigError
-from motionrt.formats import find_motions, load_motion, load_rig
+from motionrt.formats import animations_of, load_motion, load_rig
 from motionrt.formats.bvh.write import write_rig_bvh
 from motionrt.formats.gltf.container import pack_container, read_container
 from motionrt.motion import SMPL24, Motion
@@ -248,9 +248,19 @@ def test_animations_of_one_file_are_motions_of_their_own(walk: Motion, tmp_path:
     document, binary = gltf(walk, tmp_path)
     document["animations"] = [{**document["animations"][0], "name": name} for name in ("Walk", "Run")]
     saved(tmp_path, pack_container(document, binary), "two.glb")
-    found = [pair for pair in find_motions(tmp_path) if pair[0] == "two.glb"]
-    assert found == [("two.glb", "Walk"), ("two.glb", "Run")]
+    assert animations_of(tmp_path / "two.glb") == ["Walk", "Run"]
     assert_same(load_motion(tmp_path / "two.glb", animation="Run"), walk)
+
+
+def test_animations_of_one_name_are_called_by_their_index(walk: Motion, tmp_path: Path) -> None:
+    document, binary = gltf(walk, tmp_path)
+    document["animations"] = [{**document["animations"][0], "name": name} for name in ("Walk", "Run", "Walk", "7")]
+    saved(tmp_path, pack_container(document, binary), "four.glb")
+    assert animations_of(tmp_path / "four.glb") == ["0", "Run", "2", "7"]
+    for name in ("0", 2, "7", "3"):
+        assert_same(load_motion(tmp_path / "four.glb", animation=name), walk)
+    with pytest.raises(FormatError, match="more than one animation 'Walk'; it has: 0, Run, 2, 7"):
+        load_motion(tmp_path / "four.glb", animation="Walk")
 
 
 def poses_of(walk: Motion, *, z_up: bool) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,11 +11,12 @@ import pytest
 from characters import bvh_text, character
 from glb_files import glb
 from retarget_rigs import SIDED, person, rig
+from scipy.spatial.transform import Rotation
 
 from motionrt.errors import InvalidInputError, RigError
 from motionrt.formats import load_target
 from motionrt.motion import SMPL24, Motion
-from motionrt.rigs import to_smpl24
+from motionrt.rigs import RigMotion, played, to_rig, to_smpl24
 from motionrt.rigs.certify import certify
 from motionrt.rigs.mapping import draft_mapping, load_mapping, mapping_text, save_mapping
 from motionrt.rigs.plain_kinematics import joint_transforms
@@ -33,6 +35,56 @@ def test_rigs_with_the_names_of_common_products_are_certified(tmp_path: Path, pr
         result.mapping[f"{side}_{part}"] for side in ("left", "right") for part in ("hip", "knee", "shoulder", "elbow")
     }
     assert limbs <= set(result.driven)
+
+
+@pytest.mark.parametrize(("joint", "below"), [("hip", "knee"), ("knee", "ankle"), ("shoulder", "elbow")])
+@pytest.mark.parametrize("wide", [False, True])
+def test_limbs_that_twist_as_they_move_fail(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, joint: str, below: str, wide: bool
+) -> None:
+    build = {"thigh": 0.15, "shank": 0.15, "arm": 0.25} if wide else {}
+    target = load_target(glb(character("mixamo", **build)).save(tmp_path / "rig.glb"))
+    assert certify(target).passes
+    roles = draft_mapping(target.clip)
+    upper, lower = (target.clip.names.index(roles[f"left_{part}"]) for part in (joint, below))
+
+    def twisting(*args: object, **options: object) -> RigMotion:
+        moved = to_rig(*args, **options)  # type: ignore[arg-type]
+        axis = moved.clip.offsets[lower] / np.linalg.norm(moved.clip.offsets[lower])
+        turn = Rotation.from_rotvec(np.outer(0.3 * np.sin(np.linspace(0, 6, moved.frames)), axis)).as_matrix()
+        rotations = moved.clip.rotations.copy()
+        rotations[:, upper] = rotations[:, upper] @ turn
+        for child in (j for j, parent in enumerate(moved.clip.parents) if parent == upper):
+            rotations[:, child] = np.swapaxes(turn, -1, -2) @ rotations[:, child]
+        return replace(moved, clip=replace(moved.clip, rotations=rotations))
+
+    monkeypatch.setattr(played, "to_rig", twisting)
+    result = certify(target)
+    assert not result.passes
+    assert max(probe.twist for probe in result.probes) > 10
+    assert max(probe.hands_cm + probe.feet_cm for probe in result.probes) < 0.5  # nothing else is wrong
+
+
+def test_knees_that_point_aside_fail(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    target = load_target(glb(character("mixamo")).save(tmp_path / "rig.glb"))
+
+    def splayed(*args: object, **options: object) -> RigMotion:
+        moved = to_rig(*args, **options)  # type: ignore[arg-type]
+        hip, knee, ankle = (
+            moved.clip.names.index(draft_mapping(target.clip)[f"left_{p}"]) for p in ("hip", "knee", "ankle")
+        )
+        places, turns = moved.clip.global_pose()
+        line = places[:, ankle] - places[:, hip]
+        axis = line / np.linalg.norm(line, axis=-1, keepdims=True)
+        aside = Rotation.from_rotvec(axis * np.deg2rad(20)).as_matrix()
+        rotations = moved.clip.rotations.copy()
+        above = turns[:, moved.clip.parents[hip]]
+        rotations[:, hip] = np.swapaxes(above, -1, -2) @ aside @ turns[:, hip]
+        rotations[:, ankle] = np.swapaxes(aside @ turns[:, knee], -1, -2) @ turns[:, ankle]
+        return replace(moved, clip=replace(moved.clip, rotations=rotations))
+
+    monkeypatch.setattr(played, "to_rig", splayed)
+    assert max(probe.twist for probe in certify(target).probes if probe.name == "squat") > 15
 
 
 def test_a_rig_whose_arms_are_mapped_the_wrong_way_round_is_refused(tmp_path: Path) -> None:

@@ -8,9 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from motionrt.errors import FormatError
-from motionrt.formats.text import line_of, to_float, to_floats
-
-_BLOCK = 1 << 20  # characters
+from motionrt.formats.text import line_of, numbers_in, to_float
 
 Values = npt.NDArray[np.float64]
 
@@ -21,7 +19,7 @@ def read_values(text: str, at: int, shape: tuple[int, int], path: Path) -> tuple
     ``shape`` is what the file declares. Where it holds another number of whole lines of ``C`` values, those count: many
     exporters are off by one, and an interrupted export ends within a line.
     """
-    values = _numbers(text, at)
+    values = numbers_in(text[at:], shape[0] * shape[1])
     if values is not None and values.size == shape[0] * shape[1] and values.size:
         return values.reshape(shape), ()
     if values is not None and not values.size:
@@ -32,19 +30,6 @@ def read_values(text: str, at: int, shape: tuple[int, int], path: Path) -> tuple
     cut = " and ends within another" if values.size > whole * shape[1] else ""
     note = f"declares {shape[0]} frames but holds {whole} whole ones{cut}; those {whole} are read"
     return values[: whole * shape[1]].reshape(whole, shape[1]), (note,)
-
-
-def _numbers(text: str, at: int) -> Values | None:
-    """All numbers from position ``at`` on, some lines at a time; None if any word is no number."""
-    parts = []
-    while at < len(text):
-        end = text.find("\n", at + _BLOCK) + 1 or len(text)
-        part = to_floats(text[at:end].split())
-        if part is None:
-            return None
-        parts.append(part)
-        at = end
-    return np.concatenate(parts) if parts else np.empty(0)
 
 
 def _whole_lines(text: str, channels: int) -> int:

@@ -11,7 +11,7 @@ import numpy as np
 from motionrt.errors import FormatError
 from motionrt.formats.gltf.accessors import GlbArrays
 from motionrt.formats.gltf.bind import bind_pose
-from motionrt.formats.gltf.choice import chosen, names_of
+from motionrt.formats.gltf.choice import called, chosen, names_of
 from motionrt.formats.gltf.clock import USUAL_FPS, frame_times
 from motionrt.formats.gltf.container import Json, read_container
 from motionrt.formats.gltf.humanoid import humanoid_nodes
@@ -65,7 +65,7 @@ class GlbDocument:
             return self._tracks(entries[chosen("animation", animation, names, self.path)]) or None
         found = self._moving
         if len(found) > 1:
-            known = ", ".join(names[i] for i in found)
+            known = ", ".join(called(names, i) for i in found)
             raise FormatError(self.path, f"holds {len(found)} animations; choose with animation=, one of: {known}")
         return self._tracks(entries[found[0]]) if found else None
 
@@ -78,9 +78,9 @@ class GlbDocument:
 
     @property
     def animations(self) -> list[str]:
-        """Names of the animations to choose from."""
+        """What the animations to choose from are called."""
         names = names_of(self.json.get("animations", []))
-        return [names[i] for i in self._moving]
+        return [called(names, i) for i in self._moving]
 
     @property
     def _joints(self) -> dict[int, int]:
