@@ -127,6 +127,14 @@ CARDS: Mapping[str, Card] = {
         _TEMOS_DATA,
         "mean and standard deviation of the latents of TEMOS over the training split, inside the graph",
     ),
+    "motion_denoiser": Card(
+        "one step of diffusion in motion space: a noisy ego77 motion, a text, what it says and what is to be kept, into "
+        "the clean motion, guidance inside",
+        "motionrt, after Scalable Diffusion Models with Transformers (Peebles and Xie, ICCV 2023) and Human Motion "
+        "Diffusion Model (Tevet et al., ICLR 2023)",
+        _TMR_DATA,
+        "mean and standard deviation of every feature over views of the training split, inside the graph",
+    ),
     "pose_prior": Card(
         "decoder of a variational autoencoder over poses: a normal latent into 24 joint rotations",
         "motionrt, after VPoser (Pavlakos et al., CVPR 2019)",

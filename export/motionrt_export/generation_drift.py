@@ -8,15 +8,18 @@ import numpy as np
 import numpy.typing as npt
 
 from motionrt.metrics.locomotion import foot_skate, keypoint_error
-from motionrt.motion.features import sinc135
+from motionrt.motion.features import ego77, sinc135
 from motionrt.synthesis.diffusion import ddim
-from motionrt.synthesis.sampling import GUIDANCE, STEPS
+from motionrt.synthesis.motion_diffusion import solve
+from motionrt.synthesis.sampling import GUIDANCE, MOTION_STEPS, POSE_GUIDANCE, STEPS, WAY_GUIDANCE
 from motionrt_export.drift import LEAST_CM, ratio
 from motionrt_export.examples import Array, Feeds, Motions
 from motionrt_export.measures import Figures
+from motionrt_export.noising import NoisyMotions
 from motionrt_export.references import Reference
 
 FRAMES = 120
+MOTION_FRAMES = 80
 TOKENS = 14  # of a text
 
 Floats = npt.NDArray[np.float64]
@@ -51,6 +54,36 @@ class DenoiserDrift:
         noise = np.random.default_rng(2).standard_normal((self._count, 256), dtype=np.float32)
         rows = ({name: value[row : row + 1] for name, value in text.items()} for row in range(self._count))
         return np.concatenate([drawn(graph, row, start[None]) for row, start in zip(rows, noise, strict=True)])
+
+
+class MotionDenoiserDrift:
+    """Motions that both draw for sentences from the same noise, one by one as at run time."""
+
+    def __init__(self, examples: NoisyMotions, *, count: int = 64) -> None:
+        self._examples, self._count = examples, count
+
+    def __call__(self, found: Reference, expected: Reference) -> Figures:
+        """Figures of ``generation``."""
+        told = [self._told(seed) for seed in range(self._count)]
+        return {"generation": compared(*([solved(graph, feeds) for feeds in told] for graph in (found, expected)))}
+
+    def _told(self, seed: int) -> Feeds:
+        feeds = self._examples(1, MOTION_FRAMES, seed)
+        guidance = np.array([[WAY_GUIDANCE, POSE_GUIDANCE]], np.float32)
+        nothing = {"holding": np.zeros_like(feeds["holding"]), "known": np.zeros_like(feeds["known"])}
+        return {**feeds, **nothing, "guidance": guidance, "noisy": feeds["noisy"] / (1 + feeds["level"])}
+
+
+def solved(graph: Reference, feeds: Feeds) -> Floats:
+    """Joints (F, 24, 3), metres, that the denoiser makes of its inputs, whose "noisy" is standard normal noise."""
+    made: dict[str, Array] = {}
+
+    def denoise(state: Array, level: float) -> Array:
+        made.update(graph({**feeds, "noisy": state, "level": np.array([level], np.float32)}))
+        return made["clean"]
+
+    solve(denoise, feeds["noisy"], MOTION_STEPS)
+    return ego77.decode(made["motion"][0])
 
 
 def drawn(graph: Reference, text: Mapping[str, Array], noise: Array) -> Array:

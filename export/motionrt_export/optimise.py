@@ -72,6 +72,7 @@ TEMOS_TEXT = Quantisation(("/project/",), exact=("/text_mu/",))
 TEMOS_MOTION = Quantisation(("/project/", "/gather/"))
 TEMOS_DECODER = Quantisation(("/hear/",), exact=("/project/",))
 DENOISER = Quantisation(("/read_text/",), exact=("/read_latent/", "/out/"))
+MOTION_DENOISER = Quantisation(exact=("/enter/", "/leave/"))
 
 CHOICES: dict[str, Quantisation | None] = {
     "tmr_text": TEXT,
@@ -85,6 +86,7 @@ CHOICES: dict[str, Quantisation | None] = {
     "temos_motion": TEMOS_MOTION,
     "temos_decoder": TEMOS_DECODER,
     "latent_denoiser": DENOISER,
+    "motion_denoiser": MOTION_DENOISER,
 }
 
 

@@ -10,10 +10,11 @@ import torch
 from torch import Tensor
 
 from motionrt_export.motion_graphs import WalkNetGraph
-from motionrt_export.specs import LATENT_DENOISER
+from motionrt_export.specs import LATENT_DENOISER, MOTION_DENOISER
 from motionrt_training.networks.actor import Distribution
 from motionrt_training.networks.latent_denoiser import LatentDenoiser
 from motionrt_training.networks.minilm import MiniLM, mean_pooled
+from motionrt_training.networks.motion_denoiser import Condition, MotionDenoiser
 from motionrt_training.networks.pose_prior import PosePrior
 from motionrt_training.networks.student import TextStudent
 from motionrt_training.networks.temos import Temos
@@ -101,6 +102,18 @@ def denoiser_reference(model: LatentDenoiser) -> Reference:
         return {"clean": clean, "latent_out": raw}
 
     return _reference(guided, *(tensor.name for tensor in LATENT_DENOISER.inputs))
+
+
+def motion_denoiser_reference(model: MotionDenoiser) -> Reference:
+    """Clean motions, guided, normalised and raw."""
+
+    def guided(noisy: Tensor, level: Tensor, *told: Tensor) -> dict[str, Tensor]:
+        mask, tokens, words, slots, numbers, known, held, holding, guidance = told
+        condition = Condition(mask, tokens, words.bool(), slots, numbers, known, held, holding)
+        clean = model.guided(noisy, level, condition, guidance)
+        return {"clean": clean, "motion": model.denormalise(clean)}
+
+    return _reference(guided, *(tensor.name for tensor in MOTION_DENOISER.inputs))
 
 
 def _encoded(distribution: Distribution) -> dict[str, Tensor]:

@@ -17,11 +17,12 @@ from motionrt_export import references, specs
 from motionrt_export.calibration import calibration_feeds, sentence_ids
 from motionrt_export.drift import TransitionDrift, WalkDrift
 from motionrt_export.examples import Examples, Feeds, Motions, Sentences, random_examples
-from motionrt_export.generation_drift import DecoderDrift, DenoiserDrift
+from motionrt_export.generation_drift import DecoderDrift, DenoiserDrift, MotionDenoiserDrift
 from motionrt_export.generation_graphs import LatentDenoiserGraph, TemosDecoderGraph, TemosMotionGraph, TemosTextGraph
 from motionrt_export.graphs import DecoderGraph, MotionEncoderGraph, StudentGraph, TextGraph
+from motionrt_export.motion_denoiser_graph import MotionDenoiserGraph
 from motionrt_export.motion_graphs import TransNetGraph, WalkNetGraph
-from motionrt_export.noising import Noised
+from motionrt_export.noising import Noised, NoisyMotions
 from motionrt_export.references import Reference
 from motionrt_export.specs import GraphSpec
 from motionrt_export.text_drift import TextDrift
@@ -31,6 +32,7 @@ from motionrt_export.walks import Walks
 from motionrt_training.checkpoint import NETWORKS, Network, load_release, network_name
 from motionrt_training.networks.latent_denoiser import LatentDenoiser
 from motionrt_training.networks.minilm import MiniLM, package_folder
+from motionrt_training.networks.motion_denoiser import MotionDenoiser
 from motionrt_training.networks.pose_prior import PosePrior
 from motionrt_training.networks.student import TextStudent
 from motionrt_training.networks.temos import Temos
@@ -50,6 +52,7 @@ NEEDS: Mapping[str, tuple[type[nn.Module], ...]] = {
     specs.TEMOS_MOTION.name: (Temos,),
     specs.TEMOS_DECODER.name: (Temos,),
     specs.LATENT_DENOISER.name: (LatentDenoiser, Temos),
+    specs.MOTION_DENOISER.name: (MotionDenoiser,),
 }
 """The released networks that a graph, its inputs and its trial are made of."""
 
@@ -179,6 +182,7 @@ class Sources:
             specs.TEMOS_MOTION.name: self._temos_motion,
             specs.TEMOS_DECODER.name: self._temos_decoder,
             specs.LATENT_DENOISER.name: self._latent_denoiser,
+            specs.MOTION_DENOISER.name: self._motion_denoiser,
         }
         return makers[name]()
 
@@ -249,6 +253,14 @@ class Sources:
         examples, decode = Noised(self._generated, model), references.temos_decoder_reference(self.temos.model)
         trial = DenoiserDrift(self._generated, decode, count=self.generations)
         return Source(spec, module, reference, examples, release=self.latent_denoiser, trial=trial)
+
+    def _motion_denoiser(self) -> Source:
+        release = self._released(MotionDenoiser)
+        model, spec = release.model, specs.MOTION_DENOISER
+        module, reference = MotionDenoiserGraph(model), references.motion_denoiser_reference(model)
+        examples = NoisyMotions(self.sentences, self.backbone, model)
+        trial = MotionDenoiserDrift(examples, count=self.generations)
+        return Source(spec, module, reference, examples, release=release, trial=trial)
 
     @cached_property
     def _generated(self) -> Motions:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from motionrt.text import SLOTS, TARGETS
+
 OPSET = 18
 
 Axis = int | str  # a number, or the name of a dynamic axis
@@ -48,7 +50,8 @@ class GraphSpec:
     """A graph's signature; `embeddings` names the outputs that are compared by cosine, row by row.
 
     `length` names the axis that padding extends, `mask` the input that says what is valid; graphs whose lengths are
-    fixed have neither; `longest` is as long as it may be. `switch` spares those who do not want some of the outputs
+    fixed have neither; `longest` is as long as it may be. `further` has the sizes that other dynamic axes are tried with.
+    `switch` spares those who do not want some of the outputs
     what they cost.
     """
 
@@ -60,6 +63,7 @@ class GraphSpec:
     embeddings: tuple[str, ...] = field(default=())
     switch: Switch | None = None
     longest: int | None = None
+    further: Mapping[str, int] = field(default_factory=dict)
 
     @property
     def taken(self) -> tuple[TensorSpec, ...]:
@@ -72,7 +76,7 @@ class GraphSpec:
 
     def sizes(self, batch: int, length: int) -> dict[str, int]:
         """The dynamic axes with their sizes."""
-        return {"batch": batch} | ({self.length: length} if self.length else {})
+        return {"batch": batch, **self.further} | ({self.length: length} if self.length else {})
 
 
 _TOKEN_MASK = TensorSpec("attention_mask", "int64", ("batch", "tokens"), "1", "1 for a token, 0 for padding")
@@ -187,4 +191,32 @@ LATENT_DENOISER = GraphSpec(
         TensorSpec("latent_out", "float32", ("batch", 256), "1", "the same as a raw latent of TEMOS"),
     ),
     embeddings=("clean", "latent_out"),
+)
+
+_EGO = "raw ego77 features at 20 fps"
+MOTION_DENOISER = GraphSpec(
+    "motion_denoiser",
+    (
+        TensorSpec("noisy", "float32", ("batch", "frames", 77), "1", "normalised motion with level times normal noise"),
+        TensorSpec("level", "float32", ("batch",), "1", "standard deviation of that noise, 0.02 to 90"),
+        _FRAME_MASK,
+        _TOKEN_FEATURES,
+        _TOKEN_MASK,
+        TensorSpec("slots", "int64", ("batch", len(SLOTS)), "1", "classes of motionrt.text.SLOTS, 0 unknown", below=3),
+        TensorSpec("numbers", "float32", ("batch", len(TARGETS)), "1", "numbers of motionrt.text.TARGETS"),
+        TensorSpec("known", "bool", ("batch", len(TARGETS)), "1", "which of the numbers are given"),
+        TensorSpec("held", "float32", ("batch", "frames", 77), "m, rad", f"{_EGO} to be kept where holding is true"),
+        TensorSpec(
+            "holding", "bool", ("batch", "frames", 6), "1", "which of the six body parts of the frames are held"
+        ),
+        TensorSpec("guidance", "float32", ("batch", 2), "1", "weights of the condition, for the way and for the rest"),
+    ),
+    (
+        TensorSpec("clean", "float32", ("batch", "frames", 77), "1", "estimate of the motion, normalised"),
+        TensorSpec("motion", "float32", ("batch", "frames", 77), "m, rad", f"the same as {_EGO}"),
+    ),
+    "frames",
+    "mask",
+    longest=200,
+    further={"tokens": 12},
 )

@@ -32,6 +32,11 @@ FLOAT32: dict[str, Figures] = {
         "latent_out": {"max_abs_error": 1e-3},
         "generation": {"joints_cm": 0.05, "end_cm": 0.1},
     },
+    "motion_denoiser": {
+        "clean": {"max_abs_error": 1e-3},
+        "motion": {"max_abs_error": 1e-3},
+        "generation": {"joints_cm": 0.05, "end_cm": 0.2},
+    },
 }
 _ROUNDED = 10.0  # times what float32 may be off
 FLOAT16: dict[str, Figures] = {
@@ -80,6 +85,11 @@ INT8: dict[str, Figures] = {
         "clean": {"rms_error": 0.05},
         "latent_out": {"rms_error": 0.05},
         "generation": {"joints_cm": 2.0, "end_cm": 10.0, "foot_skate_ratio": 1.05},
+    },
+    "motion_denoiser": {
+        "clean": {"rms_error": 0.05},
+        "motion": {"rms_error": 0.05},
+        "generation": {"joints_cm": 4.0, "end_cm": 20.0, "foot_skate_ratio": 1.05},
     },
 }
 

@@ -15,6 +15,7 @@ from motionrt_export.references import Reference
 from motionrt_export.torch_locomotion import released
 from motionrt_training.networks.latent_denoiser import LatentDenoiser
 from motionrt_training.networks.minilm import MiniLM
+from motionrt_training.networks.motion_denoiser import MotionDenoiser
 from motionrt_training.networks.pose_prior import PosePrior
 from motionrt_training.networks.student import TextStudent
 from motionrt_training.networks.temos import Temos
@@ -54,4 +55,5 @@ def _references(sentences: MiniLM, folder: Path) -> dict[str, Callable[[], Refer
         specs.TEMOS_MOTION.name: lambda: references.temos_motion_reference(released(Temos, folder)),
         specs.TEMOS_DECODER.name: lambda: references.temos_decoder_reference(released(Temos, folder)),
         specs.LATENT_DENOISER.name: lambda: references.denoiser_reference(released(LatentDenoiser, folder)),
+        specs.MOTION_DENOISER.name: lambda: references.motion_denoiser_reference(released(MotionDenoiser, folder)),
     }

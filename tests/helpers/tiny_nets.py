@@ -6,14 +6,20 @@ from collections.abc import Mapping
 from functools import cached_property
 from pathlib import Path
 
+import numpy as np
 import torch
 
+from motionrt.motion.features import ego77
+from motionrt.motion.skeleton import SMPL24
+from motionrt.synthesis.motion_diffusion import held_columns
+from motionrt.text import SLOTS, TARGETS
 from motionrt_export.sources import Sources
 from motionrt_export.walks import Walks
 from motionrt_training.checkpoint import Network, network_name
 from motionrt_training.networks.egocentric import to_egocentric
 from motionrt_training.networks.latent_denoiser import LatentDenoiser
 from motionrt_training.networks.minilm import MiniLM
+from motionrt_training.networks.motion_denoiser import MotionDenoiser
 from motionrt_training.networks.pose_prior import PosePrior, to_6d
 from motionrt_training.networks.student import TextStudent
 from motionrt_training.networks.temos import Temos
@@ -108,6 +114,23 @@ def tiny_latent_denoiser(layers: int = 3) -> LatentDenoiser:
     return model.eval().requires_grad_(False)
 
 
+def tiny_motion_denoiser(layers: int = 2) -> MotionDenoiser:
+    """A denoiser of thin layers that listens to all it is told, whose people stroll about a rest pose."""
+    torch.manual_seed(10)
+    model = MotionDenoiser(
+        layers=layers, ff=64, d=64, slots=tuple(SLOTS.values()), targets=len(TARGETS), owners=held_columns().tolist()
+    )
+    for name, value in model.named_parameters():
+        if "modulate" in name or "leave" in name:  # what begins at zero
+            value.data.normal_(0.0, 0.05)
+    rest = np.asarray(SMPL24.rest_positions - SMPL24.rest_positions[:, 1].min() * np.array([0, 1, 0]))
+    model.mean.copy_(torch.from_numpy(ego77.encode(np.repeat(rest[None], 3, axis=0))[0]))
+    model.mean[2] = 0.05
+    model.std.uniform_(0.02, 0.05)
+    model.std[:3] = 0.004
+    return model.eval().requires_grad_(False)
+
+
 def _standing(mean: torch.Tensor) -> None:
     mean[:216] = torch.eye(3).flatten().repeat(24)
     mean[217] = 0.9
@@ -122,6 +145,7 @@ MAKERS = {
     PosePrior: tiny_pose_prior,
     Temos: tiny_temos,
     LatentDenoiser: tiny_latent_denoiser,
+    MotionDenoiser: tiny_motion_denoiser,
 }
 
 

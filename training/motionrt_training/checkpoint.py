@@ -18,6 +18,7 @@ import torch
 from torch import Tensor, nn
 
 from motionrt_training.networks.latent_denoiser import LatentDenoiser
+from motionrt_training.networks.motion_denoiser import MotionDenoiser
 from motionrt_training.networks.pose_prior import PosePrior
 from motionrt_training.networks.student import TextStudent
 from motionrt_training.networks.temos import Temos
@@ -33,6 +34,7 @@ NETWORKS: Mapping[str, type[nn.Module]] = {
     "pose_prior": PosePrior,
     "temos": Temos,
     "latent_denoiser": LatentDenoiser,
+    "motion_denoiser": MotionDenoiser,
 }
 """Every network that is released; ``config`` of each holds the arguments of its constructor."""
 

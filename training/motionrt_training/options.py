@@ -37,6 +37,7 @@ def recipe_parser(description: str, *settings: type) -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(description=description)
     parser.add_argument("--corpus", type=Path, required=True, help="what was packed for it (.npz)")
     parser.add_argument("--out", type=Path, required=True, help="folder of the run; the same command goes on")
+    parser.add_argument("--init", type=Path, help="trained weights to begin from: best.pt or .safetensors")
     for part in settings:
         add_options(parser, part)
     return parser

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import math
 import time
@@ -14,7 +15,7 @@ from torch import Tensor, nn
 from tqdm import tqdm
 
 from motionrt_training.average import Average
-from motionrt_training.checkpoint import load_state, save_atomically
+from motionrt_training.checkpoint import load_any, load_state, save_atomically
 from motionrt_training.options import option
 from motionrt_training.stop_signal import StopSignal
 
@@ -58,11 +59,24 @@ class Task(Protocol):
 
 
 class Trainer:
-    """Trains `task` into `folder`: last.pt (to go on from), best.pt (averaged weights), log.jsonl."""
+    """Trains `task` into `folder`: last.pt (to go on from), best.pt (averaged weights), log.jsonl.
 
-    def __init__(self, task: Task, schedule: Schedule, folder: str | Path, notes: dict[str, Any] | None = None) -> None:
+    A run begins from the weights of `init`, a checkpoint or a release of the same network, where one is given.
+    """
+
+    def __init__(
+        self,
+        task: Task,
+        schedule: Schedule,
+        folder: str | Path,
+        notes: dict[str, Any] | None = None,
+        init: Path | None = None,
+    ) -> None:
         self.task, self.schedule, self.folder, self.notes = task, schedule, Path(folder), notes or {}
         self.device = _device(schedule.device)
+        if init is not None:
+            task.model.load_state_dict(load_any(init, type(task.model)).state_dict())
+            self.notes = {**self.notes, "init": hashlib.sha256(init.read_bytes()).hexdigest()}
         self.bf16 = _bf16(schedule.bf16, self.device)
         self.model = task.model.to(self.device)
         self.average = Average(self.model, schedule.ema)

@@ -17,7 +17,7 @@ def add_chance(parser: argparse.ArgumentParser) -> None:
     """``--seed``, ``--temperature`` and ``--sampler``."""
     parser.add_argument("--seed", type=int, metavar="N", help="the same seed, the same motion (default: a new one)")
     parser.add_argument("--temperature", type=float, default=1.0, metavar="T", help="0 is the mean (default: 1)")
-    parser.add_argument("--sampler", metavar="NAME", help="diffusion or vae")
+    parser.add_argument("--sampler", metavar="NAME", help="motion, diffusion or vae")
 
 
 def chance(arguments: argparse.Namespace) -> dict[str, object]:

@@ -47,6 +47,10 @@ class Motion(Frames):
         """Moved vertically so that the lowest foot of the whole motion touches the floor, y = 0."""
         return transforms.grounded(self)
 
+    def in_place(self) -> Motion:
+        """Without its way over the ground, as for games that move the character themselves; sway and turns stay."""
+        return transforms.in_place(self)
+
     def save(self, path: str | Path, *, units: str | None = None, t_pose: bool = False) -> Path:
         """Write the motion to ``path`` in the format that its suffix names (.bvh, .glb, .npz); returns the path.
 

@@ -29,6 +29,7 @@ Clip = TypeVar("Clip", bound=Frames)
 
 TOE_JOINTS = ("left_foot", "right_foot")
 _ACROSS_JOINTS = (("left_hip", "right_hip"), ("left_shoulder", "right_shoulder"))
+_CALM_S = 0.5  # half the length of the mean that a way over the ground is, seconds
 _MIRROR = np.diag([-1.0, 1.0, 1.0]).astype(np.float32)
 
 
@@ -99,6 +100,19 @@ def canonical(motion: Clip) -> Clip:
     """Frame 0 above the origin and facing +Z; heights stay."""
     upright = turned(motion, -float(heading(motion[:1])[0]))
     return moved(upright, -upright.root[0] * np.array([1, 0, 1], dtype=np.float32))
+
+
+def in_place(motion: Clip) -> Clip:
+    """Without its way over the ground, the smoothed path of the pelvis; sway about it, heights and turns stay."""
+    path = motion.root[:, [0, 2]].astype(np.float64)
+    half = min(max(1, round(_CALM_S * motion.fps)), motion.frames - 1)
+    if half > 0:
+        before, after = 2 * path[:1] - path[half:0:-1], 2 * path[-1:] - path[-2 : -half - 2 : -1]
+        summed = np.cumsum(np.concatenate([np.zeros((1, 2)), before, path, after]), axis=0)
+        path = (summed[2 * half + 1 :] - summed[: -2 * half - 1]) / (2 * half + 1)
+    root = motion.root.copy()
+    root[:, [0, 2]] -= path.astype(np.float32)
+    return replace(motion, root=root)
 
 
 def floor_height(motion: Frames) -> float:

@@ -7,16 +7,20 @@ from functools import cached_property, partial
 from typing import TYPE_CHECKING, overload
 
 from motionrt.services.service import Service
-from motionrt.synthesis.sampling import DEFAULT_SAMPLER, GUIDANCE, SECONDS, STEPS
+from motionrt.synthesis.sampling import DEFAULT_SAMPLER, SECONDS
 
 if TYPE_CHECKING:
     from motionrt.motion import Motion
+    from motionrt.synthesis.choosing import Likeness
     from motionrt.synthesis.composing.alignment import Align
     from motionrt.synthesis.composing.composition import Keep
     from motionrt.synthesis.composing.layers import Layer
+    from motionrt.synthesis.constraints import Constraints
     from motionrt.synthesis.generating import Generator
     from motionrt.synthesis.layering import LayerLike, Names
+    from motionrt.synthesis.motion_stream import MotionStream
     from motionrt.synthesis.parts import Complete, Endpoint, Labeller
+    from motionrt.synthesis.timeline import Item
 
 
 class Synthesis(Service):
@@ -41,9 +45,13 @@ class Synthesis(Service):
         seed: int | None = ...,
         temperature: float = ...,
         sampler: str = ...,
-        guidance: float = ...,
-        steps: int = ...,
+        guidance: float | None = ...,
+        steps: int | None = ...,
         foot_lock: bool = ...,
+        constraints: Constraints | None = ...,
+        loop: bool = ...,
+        in_place: bool = ...,
+        candidates: int = ...,
     ) -> Motion: ...
 
     @overload
@@ -56,9 +64,49 @@ class Synthesis(Service):
         seed: int | None = ...,
         temperature: float = ...,
         sampler: str = ...,
-        guidance: float = ...,
-        steps: int = ...,
+        guidance: float | None = ...,
+        steps: int | None = ...,
         foot_lock: bool = ...,
+        constraints: Constraints | None = ...,
+        loop: bool = ...,
+        in_place: bool = ...,
+        candidates: int = ...,
+    ) -> list[Motion]: ...
+
+    @overload
+    def generate(
+        self,
+        text: None = ...,
+        seconds: float = ...,
+        *,
+        timeline: Sequence[Item],
+        n: None = ...,
+        seed: int | None = ...,
+        temperature: float = ...,
+        guidance: float | None = ...,
+        steps: int | None = ...,
+        foot_lock: bool = ...,
+        constraints: Constraints | None = ...,
+        in_place: bool = ...,
+        candidates: int = ...,
+    ) -> Motion: ...
+
+    @overload
+    def generate(
+        self,
+        text: None = ...,
+        seconds: float = ...,
+        *,
+        timeline: Sequence[Item],
+        n: int,
+        seed: int | None = ...,
+        temperature: float = ...,
+        guidance: float | None = ...,
+        steps: int | None = ...,
+        foot_lock: bool = ...,
+        constraints: Constraints | None = ...,
+        in_place: bool = ...,
+        candidates: int = ...,
     ) -> list[Motion]: ...
 
     @overload
@@ -71,9 +119,13 @@ class Synthesis(Service):
         seed: int | None = ...,
         temperature: float = ...,
         sampler: str = ...,
-        guidance: float = ...,
-        steps: int = ...,
+        guidance: float | None = ...,
+        steps: int | None = ...,
         foot_lock: bool = ...,
+        constraints: Constraints | None = ...,
+        loop: bool = ...,
+        in_place: bool = ...,
+        candidates: int = ...,
     ) -> list[Motion]: ...
 
     @overload
@@ -86,58 +138,122 @@ class Synthesis(Service):
         seed: int | None = ...,
         temperature: float = ...,
         sampler: str = ...,
-        guidance: float = ...,
-        steps: int = ...,
+        guidance: float | None = ...,
+        steps: int | None = ...,
         foot_lock: bool = ...,
+        constraints: Constraints | None = ...,
+        loop: bool = ...,
+        in_place: bool = ...,
+        candidates: int = ...,
     ) -> list[list[Motion]]: ...
 
     def generate(
         self,
-        text: str | Sequence[str],
+        text: str | Sequence[str] | None = None,
         seconds: float = SECONDS,
         *,
         n: int | None = None,
         seed: int | None = None,
         temperature: float = 1.0,
         sampler: str = DEFAULT_SAMPLER,
-        guidance: float = GUIDANCE,
-        steps: int = STEPS,
+        guidance: float | None = None,
+        steps: int | None = None,
         foot_lock: bool = True,
+        timeline: Sequence[Item] | None = None,
+        constraints: Constraints | None = None,
+        loop: bool = False,
+        in_place: bool = False,
+        candidates: int = 1,
     ) -> Motion | list[Motion] | list[list[Motion]]:
-        """A motion that a text describes; or several, or those of several texts.
+        """A motion that a text describes; or several, or those of several texts; or of several texts in one motion.
 
         Motions have 30 fps and begin above the origin, facing +Z, with the floor at y = 0. Sample ``i`` of a text and a
         seed is the same, bit for bit, whatever else is asked for with it.
 
         Args:
             text: what somebody does, as in "wave the right hand"; a list of texts gives a list of answers.
-            seconds: 0.5 to 8.
+            seconds: 0.5 to 10; 8 at most for the samplers "diffusion" and "vae".
             n: how many motions of each text, as a list; None is one, not in a list.
             seed: of the chance in it, from 0; None is another one every time.
             temperature: how far samples stray from what is most likely: 1 as trained, 0 not at all, so that all are
                 the same.
-            sampler: ``"diffusion"``, or ``"vae"``, which draws straight from the text encoder's distribution.
-            guidance: how much more the text counts than in training, for diffusion.
-            steps: calls of the denoiser, for diffusion: fewer are faster.
+            sampler: ``"motion"``, diffusion in motion space; ``"diffusion"``, latent diffusion; or ``"vae"``, which
+                draws straight from the text encoder's distribution.
+            guidance: how much more the text counts than in training, for diffusion; None takes the sampler's own.
+            steps: calls of the denoiser, for diffusion: fewer are faster; None takes the sampler's own.
             foot_lock: let standing feet stand still.
+            timeline: instead of a text: texts one after another and at once, as in ``[("walk", 3), ("sit down", 2)]`` or
+                ``{"text": "wave", "from": 1, "to": 3, "parts": "right arm"}``; of any length.
+            constraints: poses, places, hands and feet, or a clip to keep to.
+            loop: end where it begins, pose and velocity, so that it can be played on and on.
+            in_place: without its way over the ground.
+            candidates: draw so many of each and keep the one that does best what its text says, by measuring and by
+                the retrieval model; 1 to 64. Candidate ``j`` of motion ``i`` is sample ``i * candidates + j``.
 
         Raises:
             InvalidInputError: an empty text, or a number out of range; the message says what is possible.
             ModelNotFoundError, ModelFileError: the models are not there.
         """
         from motionrt.errors import InvalidInputError
+        from motionrt.synthesis.asking import Asked
         from motionrt.synthesis.sampling import Sampling
         from motionrt.untrusted.arguments import listed
 
         how = Sampling(seconds, seed, 1 if n is None else n, temperature, sampler, guidance, steps, foot_lock)
-        if isinstance(text, str):
-            found = self.generator.generate(text, how)
+        asked = Asked(how, constraints, loop, in_place, candidates)
+        if (text is None) == (timeline is None):
+            raise InvalidInputError("give a text or a timeline, one of them")
+        one = timeline if timeline is not None else text if isinstance(text, str) else None
+        if one is not None:
+            lines = asked.lines(one, self.body_parts)
+            found = asked.answer(lines, self.generator, self._likeness)
             return found[0] if n is None else found
         texts = listed(text, "text", "texts")
         if not texts:
             raise InvalidInputError("give at least one text")
-        many = [self.generator.generate(one, how) for one in texts]
+        many = [asked.answer(asked.lines(each, self.body_parts), self.generator, self._likeness) for each in texts]
         return [motions[0] for motions in many] if n is None else many
+
+    def converse(
+        self,
+        text: str,
+        *,
+        seed: int | None = None,
+        temperature: float = 1.0,
+        guidance: float | None = None,
+        steps: int | None = None,
+        foot_lock: bool = True,
+    ) -> MotionStream:
+        """Motion without an end: every ``next()`` gives two seconds more, and ``say(text)`` changes what is done.
+
+        Args:
+            text: what is done first.
+            seed, temperature, guidance, steps, foot_lock: as for :meth:`generate`.
+
+        Raises:
+            InvalidInputError: an empty text, or a number out of range.
+            ModelNotFoundError, ModelFileError: the models are not there.
+        """
+        from motionrt.synthesis.motion_stream import MotionStream
+        from motionrt.synthesis.sampling import Sampling
+
+        how = Sampling(SECONDS, seed, 1, temperature, "motion", guidance, steps, foot_lock)
+        return MotionStream(self.generator.in_motion_space, text, how)
+
+    @cached_property
+    def _likeness(self) -> Likeness:
+        """Cosine of a text and a motion by the retrieval model; nothing where the models have none."""
+        from motionrt.models.tmr import MOTION, TextMotionModel
+        from motionrt.motion.features import guo263
+
+        if MOTION not in self.sessions.manifest.models:
+            return lambda text, motion: 0.0
+        model = TextMotionModel(self.sessions, variant=self._variant, sentences=self.sentences)
+
+        def cosine(text: str, motion: Motion) -> float:
+            return float(model.embed_text([text])[0] @ model.embed_motion([guo263.encode(motion)])[0])
+
+        return cosine
 
     def layers(
         self,

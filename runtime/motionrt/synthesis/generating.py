@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from functools import partial
+from functools import cached_property, partial
 
 import numpy as np
 import numpy.typing as npt
@@ -15,10 +15,12 @@ from motionrt.models.text import MODEL as SENTENCES
 from motionrt.models.text import FloatArray, SentenceEncoder, checked_text
 from motionrt.motion import Motion
 from motionrt.motion.features import sinc135
-from motionrt.motion.feet.lock import lock_feet
 from motionrt.synthesis.diffusion import ddim
+from motionrt.synthesis.finishing import finished
+from motionrt.synthesis.motion_generator import MotionGenerator, Wanted
 from motionrt.synthesis.sampling import Sampling
 from motionrt.synthesis.smoothing import smoothed
+from motionrt.synthesis.timeline import Line
 
 PADDING = 20  # frames: the decoder sees multiples of them only, so that 12 lengths are all it ever has memory for
 
@@ -51,8 +53,15 @@ class Generator:
         """
         how = sampling or Sampling()
         checked_text(text)  # before a model is opened for it
+        if how.sampler == "motion":
+            return self.in_motion_space.generate(Wanted((Line(text, 0.0, how.seconds),)), how)
         self._prepare(how.sampler)
         return [finished(motion, how.foot_lock) for motion in self.decode(self.latents(text, how), how.frames)]
+
+    @cached_property
+    def in_motion_space(self) -> MotionGenerator:
+        """The sampler "motion", with the same sessions."""
+        return MotionGenerator(self.temos.sessions, self.temos.variant, sentences=self.sentences)
 
     def latents(self, text: str, sampling: Sampling) -> FloatArray:
         """``(n, 256)`` float32 latents of TEMOS drawn for a text; sample ``i`` is the same for every ``n``."""
@@ -61,8 +70,8 @@ class Generator:
         told = self.temos.encode_text(features)
         if sampling.sampler == "vae":
             return told.at(noise)
-        denoise = partial(self._denoise, told.mu, sampling.guidance)
-        return np.concatenate([ddim(denoise, row[None], sampling.steps) for row in noise])
+        denoise = partial(self._denoise, told.mu, sampling.weight)
+        return np.concatenate([ddim(denoise, row[None], sampling.calls) for row in noise])
 
     def decode(self, latents: FloatArray, frames: int) -> list[Motion]:
         """The motions of latents ``(n, 256)`` as the decoder gives them, smoothed; rotations are made proper ones."""
@@ -82,9 +91,3 @@ class Generator:
             self._prepared = True
             drawing = [] if sampler == "vae" else [latent_denoiser.DENOISER]
             self.temos.sessions.prepare(SENTENCES, temos.TEXT, *drawing, temos.DECODER, variant=self.temos.variant)
-
-
-def finished(motion: Motion, foot_lock: bool = True) -> Motion:
-    """Starting above the origin, facing +Z, on the floor; and standing feet stand still."""
-    placed = motion.canonical().grounded()
-    return lock_feet(placed) if foot_lock else placed

@@ -12,7 +12,7 @@ from motionrt.text.slots import (
     slots_of_motion,
     slots_of_text,
 )
-from motionrt.text.targets import TARGETS, attribute_targets
+from motionrt.text.targets import TARGETS, attribute_targets, mirror_known, mirror_targets, targets_of_text
 
 __all__ = [
     "ACTIONS",
@@ -23,9 +23,12 @@ __all__ = [
     "agreement",
     "agreements",
     "attribute_targets",
+    "mirror_known",
     "mirror_slots",
+    "mirror_targets",
     "parse_query",
     "sideless_slots",
     "slots_of_motion",
     "slots_of_text",
+    "targets_of_text",
 ]

@@ -164,7 +164,7 @@ def test_numbers_out_of_range_are_refused_by_name(name: str, value: Any) -> None
 
 
 def test_an_unknown_sampler_is_refused_with_those_there_are() -> None:
-    with pytest.raises(InvalidInputError, match=r"unknown sampler 'gan'; choose one of: diffusion, vae"):
+    with pytest.raises(InvalidInputError, match=r"unknown sampler 'gan'; choose one of: motion, diffusion, vae"):
         Sampling(sampler="gan")
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from motionrt.errors import FormatError
+from motionrt.errors import FormatError, RigError
 from motionrt.motion import Motion
 from motionrt.motion.attributes import measure
 from motionrt_training.corpora.corpus import Clip
@@ -28,8 +28,8 @@ def recorded_clips(recordings: Iterable[Recording], seed: int = 1) -> Iterator[t
     for recording in recordings:
         try:
             motion = recording.load()
-        except FormatError as error:
-            log.warning("left out: %s", error)
+        except (FormatError, RigError) as error:
+            log.warning("left out: %s: %s", recording.id, error)
             continue
         for segment in recording.segments:
             yield _captioned(recording, segment), motion.between(segment.start_s, segment.end_s)

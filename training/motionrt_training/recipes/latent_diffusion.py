@@ -187,7 +187,7 @@ def train(args: argparse.Namespace) -> dict[str, float]:
     task = LatentDiffusionTask(latents, held_out_latents(temos, clips, data), speak, settings, schedule.seed)
     notes = {**dataclasses.asdict(settings), **dataclasses.asdict(data), "sources": sources}
     notes |= {"network": task.model.config, "backbone": backbone.fingerprint}
-    return Trainer(task, schedule, args.out, notes).run()
+    return Trainer(task, schedule, args.out, notes, args.init).run()
 
 
 class TextLatents:

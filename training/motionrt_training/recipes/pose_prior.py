@@ -152,7 +152,7 @@ def train(args: argparse.Namespace) -> dict[str, float]:
     torch.set_num_threads(schedule.threads or torch.get_num_threads())
     task = PosePriorTask(load_recordings(args.corpus), settings, schedule.seed)
     notes = {**dataclasses.asdict(settings), "network": task.model.config}
-    return Trainer(task, schedule, args.out, notes).run()
+    return Trainer(task, schedule, args.out, notes, args.init).run()
 
 
 def parser() -> argparse.ArgumentParser:

@@ -54,7 +54,7 @@ def train(args: argparse.Namespace) -> dict[str, float]:
         "sentences": len(captions) + len(made),
         "network": task.model.config,
     }
-    return Trainer(task, schedule, args.out, notes).run()
+    return Trainer(task, schedule, args.out, notes, args.init).run()
 
 
 class School:

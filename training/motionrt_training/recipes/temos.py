@@ -36,7 +36,7 @@ def train(args: argparse.Namespace) -> dict[str, float]:
     if args.text_from:
         task.model.text_encoder.load_state_dict(load_any(args.text_from, TMR).text_encoder.state_dict())
     notes = {**dataclasses.asdict(settings), **dataclasses.asdict(data), "network": task.model.config}
-    return Trainer(task, schedule, args.out, {**notes, "backbone": backbone.fingerprint}).run()
+    return Trainer(task, schedule, args.out, {**notes, "backbone": backbone.fingerprint}, args.init).run()
 
 
 def parser() -> argparse.ArgumentParser:

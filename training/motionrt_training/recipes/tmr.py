@@ -35,7 +35,7 @@ def train(args: argparse.Namespace) -> dict[str, float]:
         "corpus_sha256": hashlib.sha256(Path(args.corpus).read_bytes()).hexdigest(),
         "network": task.model.config,
     }
-    return Trainer(task, schedule, args.out, notes).run()
+    return Trainer(task, schedule, args.out, notes, args.init).run()
 
 
 def parser() -> argparse.ArgumentParser:

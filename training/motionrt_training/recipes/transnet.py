@@ -322,7 +322,7 @@ def train(args: argparse.Namespace) -> dict[str, float]:
     schedule, settings = from_namespace(Schedule, args), from_namespace(TransNetSettings, args)
     task = TransNetTask(load_recordings(args.corpus), settings, schedule.seed)
     notes = {**dataclasses.asdict(settings), "network": task.model.config}
-    return Trainer(task, schedule, args.out, notes).run()
+    return Trainer(task, schedule, args.out, notes, args.init).run()
 
 
 def parser() -> argparse.ArgumentParser:

@@ -32,7 +32,7 @@ def train(args: argparse.Namespace) -> dict[str, float]:
     if args.init:
         task.model.load_state_dict(load_state(args.init)["model"])
     notes = {**dataclasses.asdict(settings), "network": task.model.config}
-    return Trainer(task, schedule, args.out, notes).run()
+    return Trainer(task, schedule, args.out, notes, args.init).run()
 
 
 def parser() -> argparse.ArgumentParser:

@@ -13,6 +13,7 @@ from motionrt.formats.gltf.container import Json, pack_container, pack_text
 from motionrt.formats.gltf.humanoid import add_humanoid
 from motionrt.formats.gltf.mesh import bone_mesh
 from motionrt.formats.tips import bone_tips
+from motionrt.motion.events import events
 from motionrt.motion.motion import Motion
 from motionrt.motion.rotations import matrix_to_quaternion
 from motionrt.rigs.clip import RigClip
@@ -29,6 +30,7 @@ def write_glb(motion: Motion, path: str | Path) -> Path:
     Metres, Y up, facing +Z, as glTF wants it. One node a joint with the joint's name; a skin whose bind pose is the
     T-pose on the floor; an octahedron a bone as its mesh; one animation named after the file: rotations of all joints
     and the translation of the root, linear between keys at ``frame / fps`` seconds, quaternions without sign flips.
+    Its extras hold the :func:`~motionrt.motion.events.events` of the motion, under ``motionrt``.
 
     Returns:
         ``path``.
@@ -37,7 +39,7 @@ def write_glb(motion: Motion, path: str | Path) -> Path:
         InvalidInputError: the file cannot be written.
     """
     check_kind(motion, Motion, "motion", "a Motion")
-    return write_rig_glb(standing_clip(motion), path)
+    return write_rig_glb(standing_clip(motion), path, extras={GENERATOR: events(motion)})
 
 
 def standing_clip(motion: Motion) -> RigClip:
@@ -52,8 +54,11 @@ def standing_clip(motion: Motion) -> RigClip:
     )
 
 
-def write_rig_glb(clip: RigClip, path: str | Path) -> Path:
-    """Write any clip in metres and Y up as :func:`write_glb` does; its rest pose becomes the bind pose."""
+def write_rig_glb(clip: RigClip, path: str | Path, *, extras: Json | None = None) -> Path:
+    """Write any clip in metres and Y up as :func:`write_glb` does; its rest pose becomes the bind pose.
+
+    ``extras``: what goes into the extras of the animation.
+    """
     path = as_path(path)
     document: Json = {
         "asset": {"version": "2.0", "generator": GENERATOR},
@@ -64,6 +69,8 @@ def write_rig_glb(clip: RigClip, path: str | Path) -> Path:
     _add_body(builder, clip)
     joints = range(len(clip.names))
     document["animations"] = [build_animation(builder, clip, path.stem, joints, np.ones(len(joints)), clip.offsets)]
+    if extras is not None:
+        document["animations"][0]["extras"] = extras
     if path.suffix.lower() == ".vrma":
         add_humanoid(document)
     pack = pack_text if path.suffix.lower() == ".gltf" else pack_container

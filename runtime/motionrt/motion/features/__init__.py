@@ -1,1 +1,1 @@
-"""The three feature vectors of the papers, each defined once: ``sinc135``, ``ccf219`` and ``guo263``."""
+"""Feature vectors, each defined once: ``sinc135``, ``ccf219`` and ``guo263`` of the papers, ``ego77`` of the generator."""
