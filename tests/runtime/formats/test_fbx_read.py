@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import subprocess
 import sys
 from importlib.util import find_spec
 from pathlib import Path
@@ -73,6 +74,29 @@ def test_without_the_library_the_error_says_what_to_install(tmp_path: Path, monk
     path.write_bytes(b"Kaydara FBX Binary  \x00\x1a\x00")
     with pytest.raises(MissingDependencyError, match=r"motionrt\[fbx\].*\.glb or \.bvh"):
         fbx.read_fbx(path)
+
+
+_AGAIN_AND_AGAIN = """
+import gc, resource, sys
+from motionrt.formats import animations_of, load_rig
+for k in range(120):
+    load_rig(sys.argv[1]) if k % 4 == 0 else animations_of(sys.argv[1])
+    litter = [[k] for _ in range(997 * k % 2000)]
+    gc.collect() if k % 5 == 0 else None
+    if k == 40:
+        before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before)
+"""
+
+
+@needs_ufbx
+@pytest.mark.skipif(sys.platform == "win32", reason="measures memory by the module resource")
+def test_hundreds_of_files_are_read_without_a_crash_or_a_leak(tmp_path: Path) -> None:
+    path = write_fbx(rig(person(10), NAMES), tmp_path / "walk.fbx", centimetres_per_unit=100, up="y")
+    command = [sys.executable, "-c", _AGAIN_AND_AGAIN, str(path)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr[-500:]
+    assert int(done.stdout) < 20_000  # kB
 
 
 def test_without_blender_writing_says_what_it_needs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

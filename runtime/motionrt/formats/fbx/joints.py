@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from motionrt.errors import FormatError
-from motionrt.formats.fbx.scene import Scene
+from motionrt.formats.fbx.scene import Scene, held
 from motionrt.motion.rotations import Array, normalise, quaternion_to_matrix
 
 JOINT_LIMIT = 2048
@@ -47,7 +47,7 @@ def find_joints(scene: Scene, path: Path) -> Joints:
     if len(nodes) > JOINT_LIMIT:
         raise FormatError(path, f"has a skeleton of {len(nodes)} joints; at most {JOINT_LIMIT} are read")
     place = {node.typed_id: joint for joint, node in enumerate(nodes)}
-    parents = [place.get(node.parent.typed_id, -1) for node in nodes]
+    parents = [place.get(held(node.parent).typed_id, -1) for node in nodes]
     units = np.ones(len(nodes))
     for joint, parent in enumerate(parents):
         if parent >= 0:
@@ -72,7 +72,7 @@ def _line(node: Any) -> list[Any]:
     out = []
     while node is not None and not node.is_root:
         out.append(node)
-        node = node.parent
+        node = held(node.parent)
     return out
 
 
@@ -122,7 +122,7 @@ def _bind_matrices(scene: Scene, joints: Joints) -> dict[int, Array]:
     place = {node.typed_id: joint for joint, node in enumerate(joints.nodes)}
     out: dict[int, Array] = {}
     for cluster in scene.clusters:
-        node = cluster.bone_node
+        node = held(cluster.bone_node)
         if node is not None and node.typed_id in place:
             matrix = _matrix(cluster.bind_to_world)
             if abs(np.linalg.det(matrix[:, :3])) > 1e-18:

@@ -41,20 +41,19 @@ def read_fbx(
         FormatError: no FBX file, no skeleton, or several to choose from.
     """
     path = as_path(path)
-    scene = open_scene(path)
-    joints = find_joints(scene, path)
-    if still:
-        return _standing(scene, joints)
-    stack = _take(scene, joints.nodes, animation, path)
-    rate = float(fps) if fps is not None else _rate(scene)
-    frames = max(1, round((stack.time_end - stack.time_begin) * rate) + 1)
-    if frames * len(joints.nodes) > VALUE_LIMIT:
-        raise FormatError(path, f"its animation has {frames} frames at {rate:g} fps; cut it")
-    rotations, translations = _sampled(joints, stack, stack.time_begin + np.arange(frames) / rate)
-    offsets, rest = rest_of(scene, joints)
-    return RigClip(
-        joints.names, tuple(joints.parents), offsets, rotations, translations, rate, "y", 1.0, rest.astype(np.float32)
-    )
+    with open_scene(path) as scene:
+        joints = find_joints(scene, path)
+        if still:
+            return _standing(scene, joints)
+        stack = _take(scene, joints.nodes, animation, path)
+        rate = float(fps) if fps is not None else _rate(scene)
+        frames = max(1, round((stack.time_end - stack.time_begin) * rate) + 1)
+        if frames * len(joints.nodes) > VALUE_LIMIT:
+            raise FormatError(path, f"its animation has {frames} frames at {rate:g} fps; cut it")
+        rotations, translations = _sampled(joints, stack, stack.time_begin + np.arange(frames) / rate)
+        offsets, rest = rest_of(scene, joints)
+    rest = rest.astype(np.float32)
+    return RigClip(joints.names, tuple(joints.parents), offsets, rotations, translations, rate, "y", 1.0, rest)
 
 
 def _standing(scene: Scene, joints: Joints) -> RigClip:
@@ -66,10 +65,10 @@ def _standing(scene: Scene, joints: Joints) -> RigClip:
 
 def fbx_animations(path: Path) -> list[str]:
     """What the takes that move the skeleton are called."""
-    scene = open_scene(path)
-    nodes, takes = find_joints(scene, path).nodes, takes_of(scene)
-    names = [take.name for take in takes]
-    return [called(names, i) for i, take in enumerate(takes) if moves(take, nodes)]
+    with open_scene(path) as scene:
+        nodes, takes = find_joints(scene, path).nodes, takes_of(scene)
+        names = [take.name for take in takes]
+        return [called(names, i) for i, take in enumerate(takes) if moves(take, nodes)]
 
 
 def _take(scene: Scene, nodes: Sequence[Any], animation: int | str | None, path: Path) -> Take:

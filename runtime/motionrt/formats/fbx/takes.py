@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from motionrt.formats.fbx.joints import pose_of
-from motionrt.formats.fbx.scene import Scene, library
+from motionrt.formats.fbx.scene import Scene, held, library
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,8 +28,9 @@ def takes_of(scene: Scene) -> list[Take]:
     for stack, anim in zip(scene.stacks, scene.anims, strict=True):
         begin, end = float(stack.time_begin), float(stack.time_end)
         if end <= begin:
-            baked = library().bake_anim(scene.raw, anim)
+            baked = held(library().bake_anim(scene.raw, anim))
             begin, end = float(baked.key_time_min), float(baked.key_time_max)
+            baked.free()
         out.append(Take(str(stack.name), anim, begin, max(begin, end)))
     return out
 
