@@ -12,7 +12,7 @@ from motionrt.formats.text import LARGEST_VALUE, require_file
 from motionrt.motion.features import guo263
 from motionrt.motion.motion import Motion
 from motionrt.rigs.clip import RigClip
-from motionrt.rigs.from_positions import motion_from_positions
+from motionrt.rigs.other_bodies import motion_of_body
 
 _PICKLED = (
     "holds pickled objects, which can run any program and are never loaded; in Python, save its joints alone:"
@@ -53,7 +53,7 @@ def joints_as_motion(values: npt.NDArray[np.generic], fps: float, path: Path) ->
         numbers = guo263.positions(numbers.astype(np.float32)).astype(np.float64)
     if numbers.ndim != 3 or numbers.shape[1] not in (22, 24) or numbers.shape[2] != 3:
         raise FormatError(path, f"holds an array {values.shape}; {_SHAPES}")
-    return motion_from_positions(numbers, fps)
+    return motion_of_body(numbers, fps)
 
 
 def as_clip(motion: Motion) -> RigClip:
