@@ -13,7 +13,7 @@ from motionrt.motion.checks import checked_fps
 from motionrt.motion.features import guo263
 from motionrt.motion.motion import Motion
 from motionrt.rigs.clip import RigClip
-from motionrt.rigs.from_positions import motion_from_positions
+from motionrt.rigs.other_bodies import motion_of_body
 from motionrt.untrusted import npz
 from motionrt.untrusted.files import as_path
 
@@ -54,7 +54,7 @@ def joints_as_motion(values: npt.NDArray[np.generic], fps: float, path: Path) ->
         numbers = guo263.positions(numbers.astype(np.float32)).astype(np.float64)
     if numbers.ndim != 3 or numbers.shape[1] not in (22, 24) or numbers.shape[2] != 3:
         raise FormatError(path, f"holds an array {values.shape}; {_SHAPES}")
-    return motion_from_positions(numbers, fps)
+    return motion_of_body(numbers, fps)
 
 
 def as_clip(motion: Motion) -> RigClip:

@@ -111,7 +111,7 @@ class MotionDenoiser(nn.Module):
         bias = (~torch.cat([valid, told.text], dim=1)).to(x.dtype)[:, None, None] * MASKED
         for layer in self.layers:
             x = layer(x, words, c, bias)
-        scale, shift = self.modulate(c)[:, None].chunk(2, dim=-1)
+        scale, shift = self.modulate(c[:, None]).chunk(2, dim=-1)
         found = self.leave(self.norm(x) * (1 + scale) + shift)
         found = found.unflatten(2, (self.patch, self.width)).flatten(1, 2)[:, : noisy.shape[1]]
         there = told.frames[..., None].to(found.dtype)
@@ -175,7 +175,7 @@ class DenoiserLayer(nn.Module):
 
     def forward(self, x: Tensor, words: Tensor, c: Tensor, bias: Tensor) -> Tensor:
         """Tokens (B, T, d), words (B, W, d), condition (B, d), bias (B, 1, 1, T + W) -> (B, T, d)."""
-        scale1, shift1, gate1, scale2, shift2, gate2 = self.modulate(c)[:, None].chunk(6, dim=-1)
+        scale1, shift1, gate1, scale2, shift2, gate2 = self.modulate(c[:, None]).chunk(6, dim=-1)
         q, k, v = self._split(self.qkv(self.norm1(x) * (1 + scale1) + shift1), 3)
         more_k, more_v = self._split(self.words(words), 2)
         k, v = torch.cat([k, more_k], dim=2), torch.cat([v, more_v], dim=2)
