@@ -18,6 +18,7 @@ from motionrt.models.text import FloatArray, SentenceFeatures
 from motionrt.motion.body_parts import PARTS
 from motionrt.motion.features import ego77
 from motionrt.synthesis.motion_diffusion import held_columns, solve
+from motionrt.synthesis.smoothing import smoothed
 from motionrt.text import TARGETS
 
 BoolArray = npt.NDArray[np.bool_]
@@ -115,10 +116,17 @@ def draw(
         return clean
 
     solve(denoise, noise, steps)
-    if canvas.correct is not None:
-        columns = held.parts[:, OWNERS]
-        raw = np.where(columns, held.motion, raw)
-    return np.asarray(raw, np.float32)
+    raw = _calmed(raw, canvas.ring)
+    last = canvas.held if canvas.correct is None else canvas.correct(raw).over(canvas.held)
+    return np.asarray(np.where(last.parts[:, OWNERS], last.motion, raw), np.float32)
+
+
+def _calmed(motion: FloatArray, ring: bool) -> FloatArray:
+    """Without the small jumps between tokens, round the ring where it is one."""
+    if not ring:
+        return smoothed(motion)
+    more = 4
+    return smoothed(np.concatenate([motion[-more:], motion, motion[:more]]))[more:-more]
 
 
 def _estimate(

@@ -23,7 +23,7 @@ from motionrt.synthesis.constraints import Constraints
 from motionrt.synthesis.finishing import finished, locked
 from motionrt.synthesis.sampling import Sampling
 from motionrt.synthesis.timeline import NETWORK, Line, pieces
-from motionrt.text import parse_query, slots_of_text
+from motionrt.text import parse_query, slots_of_text, targets_of_text
 
 READ = 24  # tokens of a text that the network has learnt to read
 RING = 10  # frames at 20 fps over which the end of a loop passes into its beginning
@@ -63,12 +63,12 @@ class Wanted:
         end = max(line.end for line in self.lines)
         return round(sinc135.FPS * end) + int(self.constraints.last >= end)
 
-    def canvas(self, words: Callable[[str], Words]) -> Canvas:
+    def canvas(self, words: Callable[[str, float], Words]) -> Canvas:
         """The canvas at 20 fps."""
         if self.loop:
             count = self._loop_frames
             return Canvas(
-                [_around(words(self.lines[0].text), count)], self.constraints.held(count), True, self._correct
+                [_around(words(self.lines[0].text, self.lines[0].end), count)], self.constraints.held(count), True, self._correct
             )
         found, frames = pieces(self.lines, words)
         return Canvas(found, self.constraints.held(frames), False, self._correct)
@@ -107,13 +107,14 @@ class MotionGenerator:
         canvas = wanted.canvas(self.words)
         return [self._motion(wanted, canvas, sampling, number) for number in range(sampling.n)]
 
-    def words(self, text: str) -> Words:
-        """What the network is told of a text."""
+    def words(self, text: str, seconds: float) -> Words:
+        """What the network is told of a text that lasts so long."""
         found = self.sentences.encode(text)
         read = SentenceFeatures(
             found.token_features[:, :READ], found.attention_mask[:, :READ], found.sentence_embedding
         )
-        return Words(read, slots_of_text(parse_query(text)))
+        said = parse_query(text)
+        return Words(read, slots_of_text(said), *targets_of_text(said, seconds))
 
     def features(self, canvas: Canvas, sampling: Sampling, number: int = 0) -> FloatArray:
         """Raw ``ego77`` ``(F, 77)`` at 20 fps of sample ``number``."""

@@ -19,6 +19,7 @@ from motionrt.synthesis.motion_generator import MotionGenerator, between
 from motionrt.synthesis.sampling import Sampling
 
 SEEN, NEW, AHEAD = 10, 40, 10
+STEP_S = NEW / ego77.FPS
 """Frames at 20 fps of a step: what went before, what is new, and what is drawn ahead and thrown away."""
 
 
@@ -35,7 +36,7 @@ class MotionStream(Iterator[Motion]):
 
     def __init__(self, generator: MotionGenerator, text: str, sampling: Sampling) -> None:
         self._generator, self._sampling = generator, sampling
-        self._words = generator.words(checked_text(text))
+        self._words = generator.words(checked_text(text), STEP_S)
         self._tail: FloatArray | None = None
         self._place, self._yaw, self._number = np.zeros(2), 0.0, 0
         self._feet = FootLocker(sinc135.FPS) if sampling.foot_lock else None
@@ -46,7 +47,7 @@ class MotionStream(Iterator[Motion]):
         Raises:
             InvalidInputError: an empty text.
         """
-        self._words = self._generator.words(checked_text(text))
+        self._words = self._generator.words(checked_text(text), STEP_S)
 
     def __next__(self) -> Motion:
         """The next 60 frames at 30 fps, where the last ones ended."""

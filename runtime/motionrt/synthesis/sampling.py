@@ -20,7 +20,7 @@ SECONDS = 4.0
 SHORTEST_S = 0.5
 LONGEST_S = {"motion": 10.0, "diffusion": 8.0, "vae": 8.0}  # what the models were trained on
 GUIDANCE, STEPS = 4.0, 10  # of latent diffusion
-POSE_GUIDANCE, TURN_GUIDANCE, MOTION_STEPS = 4.0, 1.3, 12  # of diffusion in motion space; turns want little of it
+POSE_GUIDANCE, TURN_GUIDANCE, MOTION_STEPS = 5.0, 1.3, 12  # of diffusion in motion space; turns want little of it
 MOST_STEPS = 1000
 MOST_TEMPERATURE, MOST_GUIDANCE = 10.0, 100.0  # far beyond all that still looks like a motion
 

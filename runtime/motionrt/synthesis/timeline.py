@@ -63,7 +63,7 @@ def read_timeline(items: Sequence[Item], label: Callable[[str], frozenset[str]])
     return tuple(lines)
 
 
-def pieces(lines: Sequence[Line], words: Callable[[str], Words]) -> tuple[list[Piece], int]:
+def pieces(lines: Sequence[Line], words: Callable[[str, float], Words]) -> tuple[list[Piece], int]:
     """What is denoised of the lines, and the frames at 20 fps of the whole."""
     frames = max(round(line.end * ego77.FPS) for line in lines) + 1
     frames = min(frames, NETWORK) if len(lines) == 1 else frames
@@ -72,7 +72,7 @@ def pieces(lines: Sequence[Line], words: Callable[[str], Words]) -> tuple[list[P
     _give_way(lines, owned)
     found = []
     for line, (first, last), weight in zip(lines, spans, owned, strict=True):
-        found.append(Piece(words(line.text), first, weight[first:last]))
+        found.append(Piece(words(line.text, line.end - line.start), first, weight[first:last]))
     return found, frames
 
 

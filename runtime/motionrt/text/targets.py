@@ -58,20 +58,16 @@ _BENDS = {"curve": 108.0, "circle": 290.0}
 _SPEEDS = {"still": 0.05, "slow": 0.45, "walk": 1.0, "jog": 2.0, "run": 3.0}  # m/s; a walk is a little brisker
 _SIDEWAYS = 0.42  # m/s
 _BACKWARD = 0.55
-_DOMINANCE = {"arm": 0.24, "leg": 0.22}
-_HAND_UP, _FOOT_UP, _JUMP = 0.3, 0.6, 0.2  # m
-_HEIGHTS = {
-    "standing": 0.97, "bent": 0.92, "crouching": 0.72, "kneeling": 0.49, "sitting": 0.55, "crawling": 0.45, "lying": 0.18,
-}  # fmt: skip
 _LEFT = {"left": 1.0, "right": -1.0}
 
 
 def targets_of_text(said: TextAttributes, seconds: float) -> tuple[FloatArray, npt.NDArray[np.bool_]]:
     """The numbers ``(A,)`` that a text stands for in a motion of so many seconds, and ``(A,)`` which it says at all.
 
-    A text has no numbers; these are what recordings of its classes usually have.
+    A text has no numbers; these are what recordings of its classes usually have. Ways and turns alone: with heights and
+    limbs, whose classes say enough, generated motion did less of what its text says.
     """
-    found = {**_turning(said), **_travelling(said, seconds), **_limbs(said), **_heights(said)}
+    found = {**_turning(said), **_travelling(said, seconds)}
     values = np.array([np.tanh(found.get(name, 0.0) / _SCALED[name][1]) for name in TARGETS], np.float32)
     return values, np.array([name in found for name in TARGETS])
 
@@ -105,26 +101,6 @@ def _travelling(s: TextAttributes, seconds: float) -> dict[str, float]:
     elif s.travel == "none":
         found |= {"walk_forward": 0.0, "walk_left": 0.0}
     return found
-
-
-def _limbs(s: TextAttributes) -> dict[str, float]:
-    found: dict[str, float] = {}
-    if s.arm in _LEFT:
-        found |= {"arm_dominance": _LEFT[s.arm] * _DOMINANCE["arm"]}
-    if s.leg in _LEFT:
-        found |= {"leg_dominance": _LEFT[s.leg] * _DOMINANCE["leg"]}
-    for side in ("left", "right"):
-        if s.arms_up in (side, "both"):
-            found |= {f"{side}_hand_up": _HAND_UP}
-        if s.foot_lift in (side, "both"):
-            found |= {f"{side}_foot_lift": _FOOT_UP}
-    return found
-
-
-def _heights(s: TextAttributes) -> dict[str, float]:
-    told = {"pelvis_start": s.posture_start, "pelvis_end": s.posture_end, "pelvis_lowest": s.posture_lowest}
-    found = {name: _HEIGHTS[posture] for name, posture in told.items() if posture in _HEIGHTS}
-    return found | ({"jump_height": _JUMP} if s.jumps else {})
 
 
 def mirror_targets(targets: npt.ArrayLike) -> FloatArray:

@@ -20,7 +20,7 @@ def label(text: str) -> frozenset[str]:
     return ARM if "wave" in text else frozenset()
 
 
-def words(text: str) -> Words:
+def words(text: str, seconds: float) -> Words:  # noqa: ARG001
     return Words(
         SentenceFeatures(np.zeros((1, 1, 384)), np.ones((1, 1), np.int64), np.zeros(384)), np.zeros(21, np.int64)
     )
