@@ -61,7 +61,8 @@ _BACKWARD = 0.55
 _DOMINANCE = {"arm": 0.24, "leg": 0.22}
 _HAND_UP, _FOOT_UP, _JUMP = 0.3, 0.6, 0.2  # m
 _HEIGHTS = {
-    "standing": 0.97, "bent": 0.92, "crouching": 0.72, "kneeling": 0.49, "sitting": 0.55, "crawling": 0.45, "lying": 0.18,
+    "standing": 0.97, "bent": 0.92, "crouching": 0.72, "kneeling": 0.49, "sitting": 0.55, "crawling": 0.45,
+    "lying": 0.18,
 }  # fmt: skip
 _LEFT = {"left": 1.0, "right": -1.0}
 

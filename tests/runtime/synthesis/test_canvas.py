@@ -47,7 +47,9 @@ def noise(frames: int) -> np.ndarray:
 
 def test_levels_fall_from_the_highest_to_the_lowest() -> None:
     levels = noise_levels(12)
-    assert (np.diff(levels) < 0).all() and levels[0] == pytest.approx(60) and levels[-1] == pytest.approx(0.15)
+    assert (np.diff(levels) < 0).all()
+    assert levels[0] == pytest.approx(60)
+    assert levels[-1] == pytest.approx(0.15)
 
 
 def test_the_solver_is_exact_for_normal_data_as_steps_grow() -> None:
@@ -61,7 +63,8 @@ def test_pieces_own_their_frames_and_pass_into_each_other() -> None:
     rise = np.repeat(np.clip((np.arange(20) - 8) / 4, 0, 1)[:, None], 6, axis=1)
     canvas = Canvas([piece(1, 0, 1 - rise), piece(2, 0, rise)], Held.nothing(20))
     found = draw(Known({1: np.full(77, 1.0), 2: np.full(77, 3.0)}), canvas, noise(20), 4, (1, 1))
-    assert found[:8] == pytest.approx(1.0) and found[12:] == pytest.approx(3.0)
+    assert found[:8] == pytest.approx(1.0)
+    assert found[12:] == pytest.approx(3.0)
     assert found[10] == pytest.approx(2.0)
 
 
@@ -72,7 +75,8 @@ def test_a_part_belongs_to_the_piece_that_owns_it() -> None:
     found = draw(Known({1: np.full(77, 1.0), 2: np.full(77, 3.0)}), canvas, noise(10), 3, (1, 1))
     wrist = ego77.JOINTS.start + 3 * (SMPL24.index("left_wrist") - 1)
     knee = ego77.JOINTS.start + 3 * (SMPL24.index("left_knee") - 1)
-    assert found[:, wrist] == pytest.approx(3.0) and found[:, knee] == pytest.approx(1.0)
+    assert found[:, wrist] == pytest.approx(3.0)
+    assert found[:, knee] == pytest.approx(1.0)
 
 
 def test_a_ring_is_seen_beyond_its_end_where_it_begins() -> None:
@@ -85,7 +89,8 @@ def test_what_is_held_stands_as_it_was_given() -> None:
     held = Held.nothing(10)
     held.motion[3], held.parts[3] = 7.0, True
     found = draw(Known({1: np.zeros(77)}), Canvas([piece(1, 0, np.ones((10, 6)))], held), noise(10), 3, (1, 1))
-    assert found[3] == pytest.approx(7.0) and found[4] == pytest.approx(0.0)
+    assert found[3] == pytest.approx(7.0)
+    assert found[4] == pytest.approx(0.0)
 
 
 def standing(forward: float = 0.0) -> np.ndarray:
