@@ -14,7 +14,7 @@ from motionrt.motion.features import ego77
 from motionrt.motion.skeleton import SMPL24
 from motionrt.synthesis.canvas import OWNERS, Canvas, Held, Piece, Words, draw
 from motionrt.synthesis.constraints import Constraints, Target, Waypoint
-from motionrt.synthesis.motion_diffusion import noise_levels, solve
+from motionrt.synthesis.motion_diffusion import HIGHEST, LOWEST, noise_levels, solve
 
 STANDING = SMPL24.rest_positions - [0.0, SMPL24.rest_positions[:, 1].min(), 0.0]
 
@@ -53,10 +53,16 @@ def test_levels_fall_from_the_highest_to_the_lowest() -> None:
 
 
 def test_the_solver_is_exact_for_normal_data_as_steps_grow() -> None:
-    # For x_0 normal with deviation 0.5 the estimate is 0.25 x / (0.25 + s^2), and the flow scales the noise to 0.5.
+    # For x_0 normal with deviation 1/2 the estimate is 0.25 x / (0.25 + s^2); along the flow, dx/ds = (x - estimate) / s,
+    # x grows as the root of 0.25 + s^2. The answer is the estimate at the lowest level.
     start = np.random.default_rng(1).standard_normal((1, 4, 77), dtype=np.float32)
-    found = solve(lambda x, s: np.float32(0.25 / (0.25 + s * s)) * x, start, 400)
-    assert found == pytest.approx(0.5 * start, abs=0.02)
+    exact = 0.25 / np.sqrt(0.25 + LOWEST**2) * HIGHEST / np.sqrt(0.25 + HIGHEST**2) * start
+
+    def off(steps: int) -> float:
+        return float(np.abs(solve(lambda x, s: np.float32(0.25 / (0.25 + s * s)) * x, start, steps) - exact).max())
+
+    assert off(400) < 1e-4
+    assert off(400) < off(40) / 30 < off(12) / 30  # second order: a tenth of the step, a hundredth of the error
 
 
 def test_pieces_own_their_frames_and_pass_into_each_other() -> None:
