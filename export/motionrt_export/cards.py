@@ -128,7 +128,7 @@ CARDS: Mapping[str, Card] = {
         "mean and standard deviation of the latents of TEMOS over the training split, inside the graph",
     ),
     "motion_denoiser": Card(
-        "one step of diffusion in motion space: a noisy ego77 motion, a text, what it says and what is to be kept, into "
+        "one step of diffusion in motion space: a noisy ego77 motion, a text, what it says and what is to be kept, to "
         "the clean motion, guidance inside",
         "motionrt, after Scalable Diffusion Models with Transformers (Peebles and Xie, ICCV 2023) and Human Motion "
         "Diffusion Model (Tevet et al., ICLR 2023)",

@@ -50,7 +50,7 @@ class GraphSpec:
     """A graph's signature; `embeddings` names the outputs that are compared by cosine, row by row.
 
     `length` names the axis that padding extends, `mask` the input that says what is valid; graphs whose lengths are
-    fixed have neither; `longest` is as long as it may be. `further` has the sizes that other dynamic axes are tried with.
+    fixed have neither; `longest` is as long as it may be. `further` has the sizes that other dynamic axes are tried at.
     `switch` spares those who do not want some of the outputs
     what they cost.
     """

@@ -77,7 +77,8 @@ def make(
         accept: agreement from which on a clip is taken, 0 to 1; prompts that say nothing that can be measured have 0.5
             and are always taken.
         tries: how often at most for each clip.
-        loop, in_place: as for :meth:`motionrt.Runtime.generate`.
+        loop: as for :meth:`motionrt.Runtime.generate`.
+        in_place: as there.
         progress: is told of every clip.
 
     Raises:

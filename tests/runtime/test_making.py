@@ -60,7 +60,7 @@ def test_by_default_four_seconds_and_another_motion_every_time(runtime: Runtime)
 
 
 def test_without_temperature_there_is_one_motion(runtime: Runtime) -> None:
-    for sampler in ("vae", "diffusion"):
+    for sampler in ("vae", "diffusion", "motion"):
         first, second = runtime.generate(WALK, 1, n=2, temperature=0, sampler=sampler)
         assert_same(first, second)
         assert_same(runtime.generate(WALK, 1, seed=99, temperature=0, sampler=sampler), first)
@@ -77,9 +77,9 @@ def test_the_sentence_encoder_is_opened_once_for_searching_and_generating(runtim
         ({"text": "  "}, "the text is empty"),
         ({"text": []}, "at least one text"),
         ({"text": [WALK, 3]}, "a text must be a str, not int"),
-        ({"seconds": 0}, "seconds must be a number from 0.5 to 8, not 0"),
-        ({"seconds": 10_000}, "seconds must be a number from 0.5 to 8, not 10000"),
-        ({"seconds": float("nan")}, "seconds must be a number from 0.5 to 8, not nan"),
+        ({"seconds": 0}, "seconds must be a number from 0.5 to 10, not 0"),
+        ({"seconds": 10_000}, "seconds must be a number from 0.5 to 10, not 10000"),
+        ({"seconds": float("nan")}, "seconds must be a number from 0.5 to 10, not nan"),
         ({"n": 0}, "n must be a whole number from 1 to 1000, not 0"),
         ({"temperature": -1}, "temperature must be a number from 0 to 10, not -1"),
         ({"sampler": "gan"}, "unknown sampler 'gan'"),

@@ -1,4 +1,4 @@
-"""What is held of a view in training, so that the denoiser learns to keep it: starts, poses, paths, parts of the body."""
+"""What is held of a view in training, so that the denoiser learns to keep it: starts, poses, paths, body parts."""
 
 from __future__ import annotations
 

@@ -20,8 +20,8 @@ def motion_losses(
     motion, of which what follows from the features takes the root.
 
     "features": squared error; "speed": of joints in the body's axes, (m/s)^2; "way": of the heading and place that the
-    root's ways add up to, radians and metres squared, long ways less; "feet": of the speed of feet over the ground, those that stand
-    counting more.
+    root's ways add up to, radians and metres squared, long ways less; "feet": of the speed of feet over the ground,
+    those that stand counting more.
     """
     there = frames.to(found.dtype)
     both = there[:, 1:] * there[:, :-1]

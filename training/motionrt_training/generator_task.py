@@ -92,7 +92,7 @@ class GeneratorTask:
         s = settings
         self.model = MotionDenoiser(
             ego77.WIDTH, s.patch, s.d, s.layers, s.heads, s.ff, lines.features.tokens.shape[1],
-            tuple(SLOTS.values()), len(TARGETS), held_columns().tolist(), 200 // s.patch,
+            tuple(SLOTS.values()), len(TARGETS), held_columns().tolist(), longest=200 // s.patch,
         )  # fmt: skip
         mean, std = _statistics(views)
         self.model.mean.copy_(torch.from_numpy(mean))

@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 CANDIDATES = 8
 HELP = f"""make motion of a text, or of several along a plan
 The character begins at the origin, facing +Z, 30 frames per second. With -n 3 and -o wave.bvh the files are
-wave-1.bvh, wave-2.bvh and wave-3.bvh. Of every motion {CANDIDATES} candidates are drawn, and the one that does best what
-the text says is kept; --candidates 1 is quicker. Foot skate, how much standing feet slide, is in cm per frame."""
+wave-1.bvh, wave-2.bvh and wave-3.bvh. Of every motion {CANDIDATES} candidates are drawn, and the one that does best
+what the text says is kept; --candidates 1 is quicker. Foot skate, how much standing feet slide, is in cm per frame."""
 
 
 def add(commands: Any) -> None:

@@ -17,14 +17,14 @@ POSE_GAP, SPEED_GAP = 0.02, 0.3
 
 def events(motion: Motion) -> dict[str, Any]:
     """Plain values for JSON: ``contacts``, a list of ``foot``, ``from`` and ``to``, and ``loop``, ``from`` and ``to``
-    or None; times in seconds.
+    or None; times in seconds. Both are read off the joints of ``smpl24``: other skeletons have none.
     """
+    if motion.skeleton != SMPL24:
+        return {"contacts": [], "loop": None}
     return {"contacts": _contacts(motion), "loop": _loop(motion)}
 
 
 def _contacts(motion: Motion) -> list[dict[str, Any]]:
-    if motion.skeleton != SMPL24:
-        return []
     found = foot_contacts(motion, floor_height(motion))
     rows = [
         {"foot": foot, "from": round(start / motion.fps, 4), "to": round((stop - 1) / motion.fps, 4)}

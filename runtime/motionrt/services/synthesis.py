@@ -182,7 +182,7 @@ class Synthesis(Service):
             guidance: how much more the text counts than in training, for diffusion; None takes the sampler's own.
             steps: calls of the denoiser, for diffusion: fewer are faster; None takes the sampler's own.
             foot_lock: let standing feet stand still.
-            timeline: instead of a text: texts one after another and at once, as in ``[("walk", 3), ("sit down", 2)]`` or
+            timeline: instead of a text, texts one after another and at once: ``[("walk", 3), ("sit down", 2)]`` or
                 ``{"text": "wave", "from": 1, "to": 3, "parts": "right arm"}``; of any length.
             constraints: poses, places, hands and feet, or a clip to keep to.
             loop: end where it begins, pose and velocity, so that it can be played on and on.
@@ -228,7 +228,11 @@ class Synthesis(Service):
 
         Args:
             text: what is done first.
-            seed, temperature, guidance, steps, foot_lock: as for :meth:`generate`.
+            seed: as for :meth:`generate`.
+            temperature: as there.
+            guidance: as there.
+            steps: as there.
+            foot_lock: as there.
 
         Raises:
             InvalidInputError: an empty text, or a number out of range.
@@ -247,7 +251,7 @@ class Synthesis(Service):
         from motionrt.motion.features import guo263
 
         if MOTION not in self.sessions.manifest.models:
-            return lambda text, motion: 0.0
+            return lambda _text, _motion: 0.0
         model = TextMotionModel(self.sessions, variant=self._variant, sentences=self.sentences)
 
         def cosine(text: str, motion: Motion) -> float:

@@ -134,7 +134,7 @@ def _text_seconds(opened: Sequence[Layer | Motion | str], seconds: float | None)
     if seconds is not None:
         frames_of(seconds, 1.0)  # before anything is generated
     wanted = min(lengths, default=SECONDS) if seconds is None else seconds
-    return min(max(wanted, SHORTEST_S), min(LONGEST_S.values()))
+    return min(max(wanted, SHORTEST_S), *LONGEST_S.values())
 
 
 def _layer(given: Layer | Motion | str, parts: Names, mask: Names, makers: Makers, seconds: float) -> Layer:

@@ -68,7 +68,10 @@ class Wanted:
         if self.loop:
             count = self._loop_frames
             return Canvas(
-                [_around(words(self.lines[0].text, self.lines[0].end), count)], self.constraints.held(count), True, self._correct
+                [_around(words(self.lines[0].text, self.lines[0].end), count)],
+                self.constraints.held(count),
+                True,
+                self._correct,
             )
         found, frames = pieces(self.lines, words)
         return Canvas(found, self.constraints.held(frames), False, self._correct)

@@ -111,8 +111,8 @@ class _Reader:
             if not isinstance(row, dict) or row.get("type") != "root2d":
                 kind = row.get("type") if isinstance(row, dict) else row
                 raise self.fail(
-                    f"{name} is of type {kind!r}; of Kimodo's constraints only root2d is read: poses of other skeletons "
-                    "come as motion files, in keyframes",
+                    f"{name} is of type {kind!r}; of Kimodo's constraints only root2d is read: poses of other "
+                    "skeletons come as motion files, in keyframes",
                     None,
                 )
             self.known(row, _KIMODO_KEYS, name)

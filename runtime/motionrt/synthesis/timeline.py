@@ -67,7 +67,7 @@ def pieces(lines: Sequence[Line], words: Callable[[str, float], Words]) -> tuple
     """What is denoised of the lines, and the frames at 20 fps of the whole."""
     frames = max(round(line.end * ego77.FPS) for line in lines) + 1
     frames = min(frames, NETWORK) if len(lines) == 1 else frames
-    spans = [_span(line, lines, frames) for line in lines]
+    spans = [_span(line, frames) for line in lines]
     owned = [_owned(line, span, frames) for line, span in zip(lines, spans, strict=True)]
     _give_way(lines, owned)
     found = []
@@ -119,7 +119,7 @@ def _check_covered(lines: Sequence[Line]) -> None:
         )
 
 
-def _span(line: Line, lines: Sequence[Line], frames: int) -> tuple[int, int]:
+def _span(line: Line, frames: int) -> tuple[int, int]:
     """First frame and the one behind the last that a line is denoised in, with what overlaps."""
     first, last = round(line.start * ego77.FPS), min(frames, round(line.end * ego77.FPS) + 1)
     more = min(OVERLAP, (NETWORK - (last - first)) // 2)

@@ -19,21 +19,50 @@ from motionrt.errors import FormatError, MotionFileWarning
 CASES = Path(__file__).resolve().parents[4] / "shared" / "cases" / "files"
 pytestmark = pytest.mark.skipif(not CASES.is_dir(), reason=f"needs the kept cases in {CASES}")
 
-MOTIONS = (
-    "01_six_channels/walk6.bvh 02_mixed_channels/mixed.bvh 03_zero_offsets/zero.bvh"
-    " 04_frame_count/declared_one_more.bvh 05_encodings/bom_crlf.bvh 05_encodings/cr_only.bvh"
-    " 05_encodings/sjis_names.bvh 05_encodings/utf16.bvh 05_encodings/nul_padding.bvh 06_numbers/sci.bvh"
-    " 06_numbers/tabs_blank_lines.bvh 06_numbers/comma.bvh 07_names/mixamorig1.bvh 07_names/spaces.bvh"
-    " 07_names/vroid.bvh 07_names/mmd_japanese.bvh 07_names/auto_rig_pro.bvh 07_names/rigify.bvh"
-    " 07_names/xsens_mvn.bvh 07_names/numbers_only.bvh 10_z_up/zup.bvh 10_z_up/inches.bvh"
-    " 11_root/reference_root.bvh 11_root/reference_carries_travel.bvh 13_five_toes/makehuman_toes.bvh"
-    " 14_named_markers/markers.bvh 15_sides_by_structure/numbers_legs_right_first.bvh 16_suffix/avatar_walk.vrm"
-    " 16_suffix/scene.gltf 16_suffix/embedded.gltf 17_glb_variants/quantised_int16.glb"
-    " 17_glb_variants/cubicspline.glb 17_glb_variants/sparse.glb 18_armature_travels/armature_object_travels.glb"
-    " 20_ik_feet/ik_feet.glb 21_smpl_files/amass_smplh.npz 21_smpl_files/amass_new_key.npz"
-    " 21_smpl_files/stageii_smplx.npz 21_smpl_files/stageii_with_poses165.npz 21_smpl_files/smpl72.npz"
-    " 21_smpl_files/motionx_322_body159.npz 21_smpl_files/poses_3d_array.npz"
-).split()
+MOTIONS = [
+    "01_six_channels/walk6.bvh",
+    "02_mixed_channels/mixed.bvh",
+    "03_zero_offsets/zero.bvh",
+    "04_frame_count/declared_one_more.bvh",
+    "05_encodings/bom_crlf.bvh",
+    "05_encodings/cr_only.bvh",
+    "05_encodings/sjis_names.bvh",
+    "05_encodings/utf16.bvh",
+    "05_encodings/nul_padding.bvh",
+    "06_numbers/sci.bvh",
+    "06_numbers/tabs_blank_lines.bvh",
+    "06_numbers/comma.bvh",
+    "07_names/mixamorig1.bvh",
+    "07_names/spaces.bvh",
+    "07_names/vroid.bvh",
+    "07_names/mmd_japanese.bvh",
+    "07_names/auto_rig_pro.bvh",
+    "07_names/rigify.bvh",
+    "07_names/xsens_mvn.bvh",
+    "07_names/numbers_only.bvh",
+    "10_z_up/zup.bvh",
+    "10_z_up/inches.bvh",
+    "11_root/reference_root.bvh",
+    "11_root/reference_carries_travel.bvh",
+    "13_five_toes/makehuman_toes.bvh",
+    "14_named_markers/markers.bvh",
+    "15_sides_by_structure/numbers_legs_right_first.bvh",
+    "16_suffix/avatar_walk.vrm",
+    "16_suffix/scene.gltf",
+    "16_suffix/embedded.gltf",
+    "17_glb_variants/quantised_int16.glb",
+    "17_glb_variants/cubicspline.glb",
+    "17_glb_variants/sparse.glb",
+    "18_armature_travels/armature_object_travels.glb",
+    "20_ik_feet/ik_feet.glb",
+    "21_smpl_files/amass_smplh.npz",
+    "21_smpl_files/amass_new_key.npz",
+    "21_smpl_files/stageii_smplx.npz",
+    "21_smpl_files/stageii_with_poses165.npz",
+    "21_smpl_files/smpl72.npz",
+    "21_smpl_files/motionx_322_body159.npz",
+    "21_smpl_files/poses_3d_array.npz",
+]
 
 
 def verify(motion: Any) -> bool:
@@ -98,7 +127,19 @@ def test_results_of_text_to_motion_convert(name: str, tmp_path: Path) -> None:
     assert load_motion(tmp_path / "o.bvh").fps == pytest.approx(20, rel=1e-3)
 
 
-MAPS = "ros1 ros2_025 negate negate_true alpha palette deep16 onebit la relative dotslash".split()
+MAPS = [
+    "ros1",
+    "ros2_025",
+    "negate",
+    "negate_true",
+    "alpha",
+    "palette",
+    "deep16",
+    "onebit",
+    "la",
+    "relative",
+    "dotslash",
+]
 
 
 @pytest.mark.parametrize("name", MAPS)

@@ -39,16 +39,20 @@ def test_a_plan_says_texts_and_all_kinds_of_constraints(tmp_path: Path) -> None:
     plan = Plan.read(written(tmp_path, PLAN))
     assert [row["text"] for row in plan.timeline] == ["walk forward", "wave"]  # type: ignore[index,call-overload]
     found = plan.constraints
-    assert found.path[0].place == (0.5, 2.5) and found.path[0].heading == 30
+    assert found.path[0].place == (0.5, 2.5)
+    assert found.path[0].heading == 30
     assert found.targets[0].place == (0.1, 1.3, 1.9)
-    assert found.keyframes[0].place == (0, 1) and found.keyframes[0].pose.frames == 40
-    assert found.kept[0].parts == {"left leg", "global"} and found.kept[0].spans == ((0, 1),)
+    assert found.keyframes[0].place == (0, 1)
+    assert found.keyframes[0].pose.frames == 40
+    assert found.kept[0].parts == {"left leg", "global"}
+    assert found.kept[0].spans == ((0, 1),)
 
 
 def test_the_same_plan_as_json_is_the_same(tmp_path: Path) -> None:
     given = {"timeline": [["walk", 3]], "path": [{"time": 1, "place": [0, 1]}]}
     plan = Plan.read(written(tmp_path, json.dumps(given), "plan.json"))
-    assert list(plan.timeline) == [["walk", 3]] and plan.constraints.path[0].heading is None
+    assert list(plan.timeline) == [["walk", 3]]
+    assert plan.constraints.path[0].heading is None
 
 
 def test_root_paths_of_kimodo_are_at_30_fps_with_headings_from_ahead_to_the_left(tmp_path: Path) -> None:

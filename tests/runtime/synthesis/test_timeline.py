@@ -20,7 +20,7 @@ def label(text: str) -> frozenset[str]:
     return ARM if "wave" in text else frozenset()
 
 
-def words(text: str, seconds: float) -> Words:  # noqa: ARG001
+def words(text: str, seconds: float) -> Words:
     return Words(
         SentenceFeatures(np.zeros((1, 1, 384)), np.ones((1, 1), np.int64), np.zeros(384)), np.zeros(21, np.int64)
     )
@@ -70,8 +70,10 @@ def test_every_part_of_every_frame_is_owned_exactly_once(seconds: list[float], w
 def test_the_part_of_a_text_upon_another_is_its_own_in_the_middle_of_its_time() -> None:
     walk, wave = weights(read_timeline([("walk", 4), {"text": "wave", "from": 1, "to": 3}], label))
     arm = PARTS.index("right arm")
-    assert wave[40, arm] == 1 and walk[40, arm] == 0
-    assert wave[40].sum() == 1 and walk[10].sum() == 6
+    assert wave[40, arm] == 1
+    assert walk[40, arm] == 0
+    assert wave[40].sum() == 1
+    assert walk[10].sum() == 6
 
 
 @pytest.mark.parametrize(

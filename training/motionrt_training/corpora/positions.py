@@ -1,7 +1,7 @@
 """The packed positions: joints of every recording at 20 fps, computed once, for the generator.
 
 Arrays: ``joints`` ``(frames of all recordings, 24, 3)`` float32, metres, Y up, the floor at 0, ``start`` and ``length``
-``(recordings,)`` int64 into them, and ``meta``, a JSON list with ``id``, ``split``, ``source`` and ``segments`` of each:
+``(recordings,)`` int64 into them, and ``meta``, a JSON list of ``id``, ``split``, ``source`` and ``segments`` of each:
 ``[first frame, frames, captions, labels]``, the first frame counted from the recording's own.
 
     python -m motionrt_training.corpora.positions ../shared/data/mocap --unpacked runs/more -o runs/positions.npz

@@ -1,4 +1,4 @@
-"""Views for the generator, drawn once: stretches of recordings as ``ego77``, what was measured there, what is said of them.
+"""Views for the generator, drawn once: stretches of recordings as ``ego77``, what was measured there and what is said.
 
 A view is a stretch of 0.5 to 10 s. It may hold a captioned span and what lies about it, two spans one after the other
 ("A, then B"), a part of one, or frames that no caption speaks of; some are bent along a curve or play at another speed.

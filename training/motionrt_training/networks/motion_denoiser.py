@@ -58,6 +58,7 @@ class MotionDenoiser(nn.Module):
         slots: Sequence[int] = (),
         targets: int = 18,
         owners: Sequence[int] = (),
+        *,
         longest: int = 50,
     ) -> None:
         super().__init__()
@@ -118,7 +119,7 @@ class MotionDenoiser(nn.Module):
         return smoothed(found * there) / smoothed(there).clamp(min=1e-3)
 
     def guided(self, noisy: Tensor, level: Tensor, told: Condition, guidance: Tensor) -> Tensor:
-        """Estimates with classifier-free guidance (Ho and Salimans 2022, eq. 6): guidance (B, 2), of the way and the rest.
+        """Estimates with classifier-free guidance (Ho and Salimans 2022, eq. 6): (B, 2), of the way and the rest.
 
         What is held is told to both estimates and stands in the answer as it was given.
         """

@@ -3,8 +3,8 @@
     python -m motionrt_training.recipes.starter --to runtime/motionrt/_assets/starter
 
 Of every prompt several motions are drawn. The one that the retrieval model likes best is taken among those that do what
-the prompt says as far as it can be measured, with their feet on the floor; a prompt that no motion does is left out, and
-said.
+the prompt says as far as it can be measured, with their feet on the floor; a prompt that no motion does is left out,
+and said.
 """
 
 from __future__ import annotations

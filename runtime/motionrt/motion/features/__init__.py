@@ -1,1 +1,1 @@
-"""Feature vectors, each defined once: ``sinc135``, ``ccf219`` and ``guo263`` of the papers, ``ego77`` of the generator."""
+"""Feature vectors, each defined once: those of the papers (``sinc135``, ``ccf219``, ``guo263``), and ``ego77``."""
