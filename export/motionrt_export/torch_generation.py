@@ -5,7 +5,8 @@ The same steps with torch modules in the place of the sessions; with and without
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -18,12 +19,14 @@ from motionrt.bench.timing import Call
 from motionrt.models.temos import LatentDistribution
 from motionrt.models.text import SentenceFeatures
 from motionrt.synthesis.generating import Generator
+from motionrt.synthesis.motion_generator import MotionGenerator
 from motionrt_export.examples import Array
-from motionrt_export.references import denoiser_reference
+from motionrt_export.references import Reference, denoiser_reference, motion_denoiser_reference
 from motionrt_export.specs import LATENT_DENOISER
 from motionrt_export.torch_locomotion import numpy, released, tensor
 from motionrt_training.networks.egocentric import WIDTH
 from motionrt_training.networks.latent_denoiser import LatentDenoiser
+from motionrt_training.networks.motion_denoiser import MotionDenoiser
 from motionrt_training.networks.temos import Temos
 
 Encode = Callable[[str], tuple[Tensor, Tensor]]  # text -> token features (1, T, 384), mask (1, T)
@@ -42,7 +45,28 @@ class TorchGenerator(Generator):
         self.sentences: Any = TorchSentences(encode)
         self.temos: Any = TorchTemos(folder)
         self.denoiser: Any = torch_denoiser(folder)
-        self._prepared = True
+        self._folder, self._prepared = folder, True
+
+    @cached_property
+    def in_motion_space(self) -> MotionGenerator:
+        """The sampler "motion"."""
+        sessions: Any = TorchSessions(motion_denoiser_reference(released(MotionDenoiser, self._folder)))
+        return MotionGenerator(sessions, sentences=self.sentences)
+
+
+class TorchSessions:
+    """One torch module in the place of the open models."""
+
+    def __init__(self, module: Reference) -> None:
+        self._module = module
+
+    def prepare(self, *models: str, variant: str | None = None) -> None:
+        """It is open already."""
+
+    def run(self, _model: str, outputs: Sequence[str], feeds: dict[str, Array], _variant: str | None) -> list[Array]:
+        """As `motionrt.models.Sessions.run`."""
+        found = self._module(feeds)
+        return [found[name] for name in outputs]
 
 
 class TorchSentences:

@@ -14,7 +14,8 @@ from motionrt.bench.setting import Setting
 from motionrt.bench.timing import Turns
 from motionrt.bench.workload import TEXTS, Workload
 
-CASES = [generate_case("diffusion"), generate_case("vae")]
+SAMPLERS = ("motion", "diffusion", "vae")
+CASES = [generate_case(sampler) for sampler in SAMPLERS]
 
 
 @pytest.fixture(scope="module")
@@ -24,7 +25,7 @@ def setting() -> Setting:
 
 def test_texts_become_the_motions_that_the_runtime_makes(setting: Setting) -> None:
     runtime = Runtime(TINY_GENERATORS, threads=1)
-    for sampler, call in zip(("diffusion", "vae"), generate_calls(setting.runtime.generator).values(), strict=True):
+    for sampler, call in zip(SAMPLERS, generate_calls(setting.runtime.generator).values(), strict=True):
         for text in (*TEXTS, TEXTS[0]):
             made, expected = call(), runtime.generate(text, FRAMES / 30, seed=0, sampler=sampler)
             assert isinstance(made, Motion)

@@ -21,6 +21,7 @@ TINY = {
     "pose_prior": {"latent": 4, "width": 16},
     "temos": {"d": 32, "layers": 1, "heads": 2, "ff": 32},
     "latent_denoiser": {"latent": 8, "d": 32, "layers": 3, "heads": 2, "ff": 32},
+    "motion_denoiser": {"d": 32, "layers": 1, "heads": 2, "ff": 32, "slots": [3, 2], "owners": [0] * 77},
 }
 
 

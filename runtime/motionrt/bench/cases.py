@@ -15,6 +15,7 @@ from motionrt.locomotion.actions import Act, WalkTo
 from motionrt.locomotion.spreading import Spread
 from motionrt.models import Sessions
 from motionrt.models.latent_denoiser import DENOISER
+from motionrt.models.motion_denoiser import MODEL as MOTION_DENOISER
 from motionrt.models.pose_prior import MODEL as POSE_PRIOR
 from motionrt.models.temos import DECODER
 from motionrt.models.temos import TEXT as TEMOS_TEXT
@@ -145,7 +146,7 @@ BENCHMARKS: Mapping[str, Benchmark] = {
     "retrieve": Benchmark((TEXT_TOWER, TMR_MOTION), _retrieve),
     "approximate": Benchmark((), _approximate, on_request=True),
     "gallery": Benchmark((TMR_MOTION,), _gallery),
-    "generate": Benchmark((TMR_TEXT, TEMOS_TEXT, DECODER, DENOISER), _generate),
+    "generate": Benchmark((TMR_TEXT, TEMOS_TEXT, DECODER, DENOISER, MOTION_DENOISER), _generate),
     "decode": Benchmark((DECODER,), _decode),
     "compose": Benchmark((), _compose),
     "parts": Benchmark((), _parts),

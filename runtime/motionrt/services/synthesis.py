@@ -195,6 +195,7 @@ class Synthesis(Service):
             ModelNotFoundError, ModelFileError: the models are not there.
         """
         from motionrt.errors import InvalidInputError
+        from motionrt.models.text import checked_text
         from motionrt.synthesis.asking import Asked
         from motionrt.synthesis.sampling import Sampling
         from motionrt.untrusted.arguments import listed
@@ -211,7 +212,8 @@ class Synthesis(Service):
         texts = listed(text, "text", "texts")
         if not texts:
             raise InvalidInputError("give at least one text")
-        many = [asked.answer(asked.lines(each, self.body_parts), self.generator, self._likeness) for each in texts]
+        read = [asked.lines(checked_text(each), self.body_parts) for each in texts]  # all, before one is answered
+        many = [asked.answer(lines, self.generator, self._likeness) for lines in read]
         return [motions[0] for motions in many] if n is None else many
 
     def converse(

@@ -26,9 +26,10 @@ def fake_models() -> None:
 def test_a_motion_is_written_and_told(run_json: RunJson, tmp_path: Path) -> None:
     out = tmp_path / "wave.bvh"
     found = run_json("generate", TEXT, "-o", out, "--seconds", 2, "--seed", 1, *MODELS)
-    assert found.keys() == {"text", "seed", "sampler", "temperature", "motions"}
+    assert found.keys() == {"text", "seed", "sampler", "temperature", "candidates", "motions"}
     assert (found["text"], found["seed"], found["temperature"]) == (TEXT, 1, 1.0)
     assert found["sampler"] == "motion"
+    assert found["candidates"] == 8
     (motion,) = found["motions"]
     assert motion.keys() == {"path", "frames", "fps", "seconds", "foot_skate_cm"}
     assert (motion["path"], motion["frames"], motion["fps"], motion["seconds"]) == (str(out), 60, 30, 2)
@@ -37,7 +38,7 @@ def test_a_motion_is_written_and_told(run_json: RunJson, tmp_path: Path) -> None
 
 def test_the_file_holds_what_the_library_makes(run_json: RunJson, tmp_path: Path) -> None:
     run_json("generate", TEXT, "-o", tmp_path / "wave.bvh", "--seconds", 1, "--seed", 8, *MODELS)
-    expected = Runtime(TINY_GENERATORS).generate(TEXT, 1, seed=8)
+    expected = Runtime(TINY_GENERATORS).generate(TEXT, 1, seed=8, candidates=8)
     np.testing.assert_allclose(load_motion(tmp_path / "wave.bvh").positions(), expected.positions(), atol=2e-3)
 
 
@@ -63,7 +64,7 @@ def test_a_seed_that_nobody_gave_is_told_and_makes_the_same_again(
     assert main(["generate", TEXT, "-o", str(tmp_path / "two.npz"), "--seed", seed, *models]) == 0
     one, two = load_motion(tmp_path / "one.npz"), load_motion(tmp_path / "two.npz")
     np.testing.assert_array_equal(one.rotations, two.rotations)
-    assert capsys.readouterr().err == ""
+    assert capsys.readouterr().err == "the best of 8 candidates each; --candidates 1 takes the first\n"
 
 
 def test_options_reach_the_sampler(run_json: RunJson, tmp_path: Path) -> None:
@@ -96,8 +97,9 @@ def test_options_reach_the_sampler(run_json: RunJson, tmp_path: Path) -> None:
         ([TEXT, "-o", "", "-n", "2"], "has no name to number"),
         ([TEXT, "--sampler", "gan"], "unknown sampler 'gan'; choose one of: motion, diffusion, vae"),
         ([TEXT, "--seed", "-1"], "seed must be a whole number from 0, not -1"),
-        ([TEXT, "-o", "motion.fbx"], "motion.fbx: a file '.fbx' cannot be written"),
+        ([TEXT, "-o", "motion.xyz"], "motion.xyz: a file '.xyz' cannot be written"),
         ([TEXT, "--models", str(TINY)], "has no model"),
+        ([TEXT, "--candidates", "65"], "candidates must be a whole number from 1 to 64, not 65"),
     ],
 )
 def test_an_error_is_one_line_and_exit_code_one(
@@ -112,7 +114,13 @@ def test_an_error_is_one_line_and_exit_code_one(
     assert not list(tmp_path.iterdir())
 
 
-@pytest.mark.parametrize("arguments", [[], [TEXT], ["-o", "x.bvh"], [TEXT, "-o", "x.bvh", "-n", "many"]])
+def test_neither_text_nor_plan_is_an_error(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["generate", "-o", str(tmp_path / "x.bvh")]) == 1
+    assert "give a TEXT, as in 'wave the right hand', or --plan FILE" in capsys.readouterr().err
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("arguments", [[], [TEXT], [TEXT, "-o", "x.bvh", "-n", "many"]])
 def test_wrong_usage_is_exit_code_two(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["generate", *arguments]) == 2
     assert "usage: motionrt generate" in capsys.readouterr().err

@@ -10,11 +10,16 @@ import torch
 import torch.nn.functional as F
 from torch import Tensor, nn
 
+from motionrt.synthesis.motion_diffusion import held_columns
+from motionrt.text import SLOTS, TARGETS
 from motionrt_training.networks.actor import patched
 from motionrt_training.networks.transformer import MASKED
 
 KERNEL = (0.5, 0.228, 0.022)  # a Gaussian of 0.8 frames: what is faster than half a period of four frames goes
 WAY = 1  # the first column, the turn, which guidance makes larger than it was meant
+
+CLASSES = tuple(SLOTS.values())
+OWNERS = tuple(held_columns().tolist())
 
 
 @dataclass(frozen=True)
@@ -55,9 +60,9 @@ class MotionDenoiser(nn.Module):
         heads: int = 4,
         ff: int = 1024,
         text: int = 384,
-        slots: Sequence[int] = (),
-        targets: int = 18,
-        owners: Sequence[int] = (),
+        slots: Sequence[int] = CLASSES,
+        targets: int = len(TARGETS),
+        owners: Sequence[int] = OWNERS,
         *,
         longest: int = 50,
     ) -> None:
