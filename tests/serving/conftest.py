@@ -17,6 +17,7 @@ from tiny_models import TINY_GENERATORS
 from motionrt.retrieval import build_gallery
 from motionrt.runtime import Runtime
 
+
 @pytest.fixture(scope="session")
 def library(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("library")

@@ -9,8 +9,8 @@ import sys
 from pathlib import Path
 
 import pytest
-
 from service import TOKEN, Served
+
 from motionrt import load_motion
 from motionrt.cli import main
 from motionrt.cli import serve as command

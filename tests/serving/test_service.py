@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 import pytest
 from motions import walking
-
 from service import TOKEN, Served
+
 from motionrt import limits, load_motion
 from motionrt.runtime import Runtime
 

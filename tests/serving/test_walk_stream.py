@@ -7,8 +7,8 @@ import time
 
 import numpy as np
 import pytest
-
 from service import TOKEN, Served
+
 from motionrt.motion import SMPL24
 
 sync = pytest.importorskip("websockets.sync.client", reason="the extra serve is not installed")

@@ -4,7 +4,8 @@
 2. Its joints follow their counterparts; spines of other lengths share the turns (``drive``).
 3. Hips and path are scaled by the length of the legs; legs are bent so that the toes stand where those of the source
    stand, on the rig's own soles (``legs``).
-4. What has no counterpart (fingers, twist bones, props) stays as it is at rest.
+4. Twist bones take their share of a turn, fingers hang relaxed (``secondary``); what else has no counterpart (props,
+   helpers) stays as it is at rest.
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ from motionrt.rigs.clip import RigClip
 from motionrt.rigs.drive import drive
 from motionrt.rigs.legs import place_legs
 from motionrt.rigs.root_motion import carry
+from motionrt.rigs.secondary import relaxed, share_twists
 from motionrt.rigs.stance import Stance, read_stance
 from motionrt.rigs.target import Rig, RigMotion
 from motionrt.rigs.tree import RigTree
@@ -82,7 +84,9 @@ def to_rig(
     turned = drive(motion.global_rotations().astype(np.float64), rig.clip, stance, local)
     build = read_build(rig.clip, stance, local)
     root = place_legs(turned, motion, stance, build)
-    rotations, translations = carry(motion, turned, build.units * root, rig, stance, local, root_motion)
+    share_twists(turned, rig.clip, stance, local)
+    still = relaxed(rig.clip, stance, local)
+    rotations, translations = carry(motion, turned, build.units * root, rig, stance, still, root_motion)
     clip = replace(
         rig.clip, rotations=rotations, translations=translations, fps=motion.fps, rest=local, up=rig.clip.up
     )  # fmt: skip
