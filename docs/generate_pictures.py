@@ -14,12 +14,12 @@ from pathlib import Path
 from motionrt import Runtime, render
 
 PROMPTS = (
-    "jump forward with both feet",
-    "climbing a ladder hand over hand",
-    "several deep squats",
-    "drinking from a bottle",
-    "a person sits down on a stool",
-    "wave the right hand while walking",
+    "kick with the left foot",
+    "jump forward",
+    "a person raises both arms above the head",
+    "walk in a circle to the left",
+    "crawl on hands and knees",
+    "squat down",
 )
 
 
@@ -29,11 +29,11 @@ def main() -> None:
     parser.add_argument("-o", "--out", type=Path, required=True)
     parser.add_argument("--seconds", type=float, default=4.0, help="of every motion (default: 4)")
     parser.add_argument("--seed", type=int, default=0, help="the same for all prompts (default: 0)")
-    parser.add_argument("--sampler", help="diffusion or vae (default: that of generate)")
+    parser.add_argument("--sampler", help="motion, diffusion or vae (default: motion)")
     parser.add_argument("--models", type=Path, help="models manifest or folder (default: the shipped models)")
     args = parser.parse_args()
     how = {"sampler": args.sampler} if args.sampler else {}
-    motions = Runtime(args.models).generate(list(args.prompts), args.seconds, seed=args.seed, **how)
+    motions = Runtime(args.models).generate(list(args.prompts), args.seconds, seed=args.seed, candidates=8, **how)
     args.out.parent.mkdir(parents=True, exist_ok=True)
     captions = [f"“{prompt}”" for prompt in args.prompts]
     render(motions, args.out, captions=captions, columns=2, poses=8, camera=40, trails=True, size=(1600, 0))

@@ -13,9 +13,9 @@ import motionrt
 
 def main(folder: Path) -> None:
     rt = motionrt.Runtime()
-    for number, motion in enumerate(rt.generate("a boxer throws punches", seconds=3, n=2, seed=7)):
+    for number, motion in enumerate(rt.generate("kick with the left foot", seconds=3, n=2, seed=7)):
         print(motion)
-        motion.save(folder / f"punches_{number}.glb")
+        motion.save(folder / f"kick_{number}.glb")
 
 
 if __name__ == "__main__":
