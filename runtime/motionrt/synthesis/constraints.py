@@ -148,8 +148,10 @@ class Constraints:
         pins = self._pins(len(features))
         if pins:
             found = _on_way(features, pins)
-        columns = found.parts[:, OWNERS]
-        walked = np.where(columns, found.motion, features)
+        walked = np.where(found.parts[:, OWNERS], found.motion, features)
+        for keyframe in self.keyframes:
+            found = _as_high(walked, keyframe).over(found)
+            walked = np.where(found.parts[:, OWNERS], found.motion, walked)
         for target in self.targets:
             found = _reaching(walked, target).over(found)
             walked = np.where(found.parts[:, OWNERS], found.motion, walked)
@@ -158,7 +160,7 @@ class Constraints:
     @property
     def corrects(self) -> bool:
         """Whether anything is met by correction."""
-        return bool(self.path or self.targets or any(_placed(keyframe) for keyframe in self.keyframes))
+        return bool(self.path or self.targets or self.keyframes)
 
     def _pins(self, frames: int) -> list[tuple[int, tuple[float, float] | None, float | None]]:
         """Frames in order with the place and heading wanted there."""
@@ -222,6 +224,20 @@ def _on_way(features: FloatArray, pins: Sequence[tuple[int, tuple[float, float] 
     parts = np.zeros((len(rows), len(PARTS)), bool)
     parts[: before + 1, GLOBAL] = True
     return Held(rows.astype(np.float32), parts)
+
+
+def _as_high(features: FloatArray, keyframe: Keyframe) -> Held:
+    """The pelvis as high as the pose has it at its time, rising or sinking to it over some frames."""
+    rows, frame = np.asarray(features, np.float32).copy(), frame_of(keyframe.time)
+    held = Held.nothing(len(rows))
+    if frame >= len(rows):
+        return held
+    first, last = max(0, frame - _REACH), min(len(rows), frame + _REACH + 1)
+    near = np.cos(0.5 * np.pi * (np.arange(first, last) - frame) / (_REACH + 1)) ** 2
+    missing = float(keyframe.pose.positions()[0, 0, 1]) - rows[frame, 3]
+    rows[first:last, 3] += (missing * near).astype(np.float32)
+    held.parts[first:last, GLOBAL] = True
+    return Held(rows, held.parts)
 
 
 def _reaching(features: FloatArray, target: Target) -> Held:

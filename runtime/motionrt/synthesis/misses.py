@@ -89,7 +89,7 @@ def _of_poses(features: npt.NDArray[np.float32], fps: float, constraints: Constr
         at = round(time * fps)
         if abs(time * fps - at) > 1e-6 or at >= len(features):
             continue
-        off = (features[at, ego77.JOINTS] - held.motion[frame, ego77.JOINTS]).reshape(-1, 3)
+        off = _turned_alike(features[at], held.motion[frame])
         miss = Miss("pose", time, 100 * float(np.linalg.norm(off, axis=1)[columns[frame]].mean()))
         if frame in poses:
             yield miss
@@ -97,3 +97,12 @@ def _of_poses(features: npt.NDArray[np.float32], fps: float, constraints: Constr
             worst = Miss("kept", time, miss.cm)
     if worst is not None:
         yield worst
+
+
+def _turned_alike(found: npt.NDArray[np.float32], wanted: npt.NDArray[np.float32]) -> Array:
+    """``(23, 3)`` differences of the joints of two frames, turned about the vertical as alike as can be."""
+    one, other = (np.asarray(row[ego77.JOINTS], np.float64).reshape(-1, 3) for row in (found, wanted))
+    flat, like = one[:, 0] + 1j * one[:, 2], other[:, 0] + 1j * other[:, 2]
+    turn = np.exp(1j * np.angle((np.conj(flat) * like).sum()))
+    turned = flat * turn
+    return np.stack([turned.real, one[:, 1], turned.imag], axis=1) - other

@@ -131,7 +131,7 @@ class MotionGenerator:
         motion = as_motion(ego77.decode(features))[: wanted.frames]
         if wanted.constraints.kept:
             return locked(_where(wanted.constraints.kept[0].motion, motion), sampling.foot_lock)
-        if wanted.constraints.corrects or wanted.constraints.keyframes:
+        if wanted.constraints.corrects:
             return locked(motion, sampling.foot_lock)
         return finished(motion, sampling.foot_lock)
 
