@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from fake_embedder import FakeEmbedder
 
+from motionrt.bench.files import LOAD, SAVE
 from motionrt.bench import processes, report, rivals, starts, timing, worker
 from motionrt.bench.cases import BENCHMARKS, chosen
 from motionrt.bench.first_answer import peak_mb
@@ -122,7 +123,8 @@ def test_vectors_have_unit_length_and_are_the_same_every_time(work: Workload) ->
 
 def test_files_are_written_read_and_indexed_in_a_folder_that_is_removed(work: Workload) -> None:
     setting = Setting(None, 1, work)
-    load, save = (case.call for case in BENCHMARKS["files"].cases(setting).values())
+    cases = BENCHMARKS["files"].cases(setting)
+    load, save = cases[LOAD].call, cases[SAVE].call
     gallery = next(iter(BENCHMARKS["gallery"].cases(setting).values()))
     assert load().frames == 300
     assert save().is_file()

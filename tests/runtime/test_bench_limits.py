@@ -142,8 +142,8 @@ def test_a_benchmark_is_profiled_model_by_model() -> None:
     assert 0 < found.all.run_seconds < found.wall_s
 
 
-def test_the_denoiser_of_a_motion_runs_ten_times() -> None:
-    assert benchmark_work("generate", str(TINY_GENERATORS), 1, seconds=0.01).models["latent_denoiser"].runs == 10
+def test_the_denoiser_of_a_motion_runs_twelve_times() -> None:
+    assert benchmark_work("generate", str(TINY_GENERATORS), 1, seconds=0.01).models["motion_denoiser"].runs == 12
 
 
 def test_a_profile_is_json_and_names_functions() -> None:

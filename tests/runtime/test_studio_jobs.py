@@ -119,4 +119,4 @@ def test_a_motion_is_exported_in_every_format_that_is_written(form: str) -> None
 
     assert len(motion_bytes(walking(5), form)) > 500
     with pytest.raises(InvalidInputError, match="unknown format"):
-        motion_bytes(walking(5), "fbx")
+        motion_bytes(walking(5), "xyz")

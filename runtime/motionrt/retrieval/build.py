@@ -121,7 +121,7 @@ def _reading(
     asf: str | Path | None,
     animation: int | str | None,
 ) -> Reading:
-    if up not in {None, "y", "z"}:
+    if not (up is None or (isinstance(up, str) and up in ("y", "z"))):
         raise InvalidInputError(f"up must be 'y' or 'z', not {shown(up)}")
     rate = None if fps is None else checked_fps(fps)
     chosen = None if animation is None else str(animation)
