@@ -158,6 +158,11 @@ class Sources:
         """The denoiser of latent diffusion as released."""
         return self._released(LatentDenoiser)
 
+    @cached_property
+    def motion_denoiser(self) -> Release[MotionDenoiser]:
+        """The denoiser of motions as released."""
+        return self._released(MotionDenoiser)
+
     @property
     def tokenizer_file(self) -> Path:
         """The file of the tokenizer."""
@@ -255,8 +260,8 @@ class Sources:
         return Source(spec, module, reference, examples, release=self.latent_denoiser, trial=trial)
 
     def _motion_denoiser(self) -> Source:
-        release = self._released(MotionDenoiser)
-        model, spec = release.model, specs.MOTION_DENOISER
+        release, spec = self.motion_denoiser, specs.MOTION_DENOISER
+        model = release.model
         module, reference = MotionDenoiserGraph(model), references.motion_denoiser_reference(model)
         examples = NoisyMotions(self.sentences, self.backbone, model)
         trial = MotionDenoiserDrift(examples, count=self.generations)

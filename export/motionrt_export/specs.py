@@ -63,7 +63,7 @@ class GraphSpec:
     embeddings: tuple[str, ...] = field(default=())
     switch: Switch | None = None
     longest: int | None = None
-    further: Mapping[str, int] = field(default_factory=dict)
+    further: tuple[tuple[str, int], ...] = ()
 
     @property
     def taken(self) -> tuple[TensorSpec, ...]:
@@ -76,7 +76,7 @@ class GraphSpec:
 
     def sizes(self, batch: int, length: int) -> dict[str, int]:
         """The dynamic axes with their sizes."""
-        return {"batch": batch, **self.further} | ({self.length: length} if self.length else {})
+        return {"batch": batch, **dict(self.further)} | ({self.length: length} if self.length else {})
 
 
 _TOKEN_MASK = TensorSpec("attention_mask", "int64", ("batch", "tokens"), "1", "1 for a token, 0 for padding")
@@ -218,5 +218,5 @@ MOTION_DENOISER = GraphSpec(
     "frames",
     "mask",
     longest=200,
-    further={"tokens": 12},
+    further=(("tokens", 12),),
 )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import torch
@@ -15,13 +15,14 @@ from motionrt.models.pose_prior import PosePrior
 from motionrt.models.temos import LatentDistribution
 from motionrt.models.text import SentenceFeatures
 from motionrt.synthesis.generating import Generator
+from motionrt.synthesis.motion_generator import MotionGenerator
 from motionrt_export import references
 from motionrt_export.calibration import sentence_ids
 from motionrt_export.examples import Array
 from motionrt_export.references import Reference
 from motionrt_export.sources import Sources
 from motionrt_export.specs import LATENT_DENOISER
-from motionrt_export.torch_generation import TorchSentences
+from motionrt_export.torch_generation import TorchSentences, TorchSessions
 
 
 class TorchRuntime(Runtime):
@@ -75,6 +76,13 @@ class TorchGenerator(Generator):
         self.temos: Any = TorchTemos(sources)
         self.denoiser: Any = _denoise(references.denoiser_reference(sources.latent_denoiser.model))
         self._prepared = True
+        self._sources = sources
+
+    @cached_property
+    def in_motion_space(self) -> MotionGenerator:
+        """The sampler "motion"."""
+        reference = references.motion_denoiser_reference(self._sources.motion_denoiser.model)
+        return MotionGenerator(cast("Any", TorchSessions(reference)), sentences=self.sentences)
 
 
 class TorchTemos:

@@ -117,7 +117,7 @@ class MotionDenoiser(nn.Module):
         bias = (~torch.cat([valid, told.text], dim=1)).to(x.dtype)[:, None, None] * MASKED
         for layer in self.layers:
             x = layer(x, words, c, bias)
-        scale, shift = self.modulate(c[:, None]).chunk(2, dim=-1)
+        scale, shift = self.modulate(c[:, None]).split(self.leave.in_features, dim=-1)
         found = self.leave(self.norm(x) * (1 + scale) + shift)
         found = found.unflatten(2, (self.patch, self.width)).flatten(1, 2)[:, : noisy.shape[1]]
         there = told.frames[..., None].to(found.dtype)
@@ -169,7 +169,7 @@ class DenoiserLayer(nn.Module):
 
     def __init__(self, d: int, heads: int, ff: int) -> None:
         super().__init__()
-        self.heads = heads
+        self.d, self.heads = d, heads
         self.norm1 = nn.LayerNorm(d, elementwise_affine=False)
         self.norm2 = nn.LayerNorm(d, elementwise_affine=False)
         self.qkv, self.out = nn.Linear(d, 3 * d), nn.Linear(d, d)
@@ -181,14 +181,15 @@ class DenoiserLayer(nn.Module):
 
     def forward(self, x: Tensor, words: Tensor, c: Tensor, bias: Tensor) -> Tensor:
         """Tokens (B, T, d), words (B, W, d), condition (B, d), bias (B, 1, 1, T + W) -> (B, T, d)."""
-        scale1, shift1, gate1, scale2, shift2, gate2 = self.modulate(c[:, None]).chunk(6, dim=-1)
+        scale1, shift1, gate1, scale2, shift2, gate2 = self.modulate(c[:, None]).split(self.d, dim=-1)
         q, k, v = self._split(self.qkv(self.norm1(x) * (1 + scale1) + shift1), 3)
         more_k, more_v = self._split(self.words(words), 2)
         k, v = torch.cat([k, more_k], dim=2), torch.cat([v, more_v], dim=2)
-        scores = (q * q.shape[-1] ** -0.5) @ k.transpose(-1, -2) + bias
-        mixed = (scores.softmax(dim=-1) @ v).transpose(1, 2).flatten(2)
-        x = x + gate1 * self.out(mixed)
+        scores = (q * (self.d // self.heads) ** -0.5) @ k.transpose(-1, -2) + bias
+        mixed = (scores.softmax(dim=-1) @ v).transpose(1, 2)
+        x = x + gate1 * self.out(mixed.reshape(mixed.shape[0], -1, self.d))
         return x + gate2 * self.down(F.relu(self.up(self.norm2(x) * (1 + scale2) + shift2)))
 
     def _split(self, x: Tensor, parts: int) -> tuple[Tensor, ...]:
-        return x.unflatten(-1, (parts, self.heads, -1)).permute(2, 0, 3, 1, 4).unbind(0)
+        split = x.view(x.shape[0], -1, parts * self.heads, self.d // self.heads).transpose(1, 2)
+        return split.split(self.heads, dim=1)
