@@ -101,6 +101,7 @@ def prepare(folder: Path) -> None:
 
 def child(name: str, folder: Path) -> None:
     """Make one call once for every line of standard input; say when it began and when it was over."""
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # ignored where the tests run in the background
     call = calls(folder, name)[name]
     before = [signal.getsignal(number) for number in signal.valid_signals()]
     for _ in sys.stdin:
