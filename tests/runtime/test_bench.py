@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 from fake_embedder import FakeEmbedder
 
-from motionrt.bench.files import LOAD, SAVE
 from motionrt.bench import processes, report, rivals, starts, timing, worker
 from motionrt.bench.cases import BENCHMARKS, chosen
+from motionrt.bench.files import LOAD, SAVE
 from motionrt.bench.first_answer import peak_mb
 from motionrt.bench.search import CLIPS, TEXT, answer_case, motion_case, search_case
 from motionrt.bench.setting import Setting
