@@ -83,7 +83,7 @@ def digests(root: Path) -> dict[str, str]:
 def test_a_second_run_writes_the_same_bytes(published: tuple[Path, TinySources], tmp_path: Path) -> None:
     publish_tiny(tmp_path)
     assert digests(tmp_path) == digests(published[0])
-    assert len(digests(tmp_path)) == 9 + 23 + 2 + 7  # shipped files, others; manifest, tokenizer; checkpoints
+    assert len(digests(tmp_path)) == 10 + 25 + 2 + 8  # shipped files, others; manifest, tokenizer; checkpoints
 
 
 def test_the_runtime_reads_the_manifest_and_finds_every_file(published: tuple[Path, TinySources]) -> None:
