@@ -132,7 +132,7 @@ class Search(Service):
 
         opened = self.gallery(gallery)
         opened.check_model(self.model.fingerprint, self.model.name)
-        own = next((clip.id for clip in opened.clips if clip.id == motion or opened.path(clip) == motion), None)
+        own = opened.own(motion) if isinstance(motion, str | Path) else None
         return similar(opened, self.embed_motion(opened.motion(own) if own else motion), k, without=own)
 
     def gallery(self, gallery: GalleryLike | None = None) -> Gallery:
@@ -221,6 +221,7 @@ class Search(Service):
         jobs: int = 1,
         mapping: Mapping[str, str] | None = None,
         progress: Progress | None = None,
+        precision: str = "float32",
     ) -> BuildReport:
         """Index a folder of motion files; see :func:`motionrt.retrieval.build_gallery`.
 
@@ -229,7 +230,9 @@ class Search(Service):
         """
         from motionrt.retrieval import build_gallery
 
-        return build_gallery(folder, self._opener(), out=out, jobs=jobs, mapping=mapping, progress=progress)
+        return build_gallery(
+            folder, self._opener(), out=out, jobs=jobs, mapping=mapping, progress=progress, precision=precision
+        )
 
     def update_gallery(self, gallery: str | Path, *, jobs: int = 1, progress: Progress | None = None) -> BuildReport:
         """Index what is new or changed, drop what is gone; see :func:`motionrt.retrieval.update_gallery`."""
