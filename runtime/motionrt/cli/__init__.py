@@ -29,6 +29,7 @@ from motionrt.cli import (
     retarget,
     retrieve,
     rig,
+    serve,
     similar,
     studio,
     view,
@@ -59,6 +60,7 @@ _COMMANDS = (
     rig,
     view,
     studio,
+    serve,
     models,
     bench,
 )

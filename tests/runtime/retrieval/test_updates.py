@@ -95,7 +95,7 @@ KILLED = """
 import os, sys
 from fake_embedder import open_fake
 from motionrt.retrieval import build_gallery, journal, update_gallery
-journal.EVERY_S = 0.0
+journal.EVERY_S = journal.GROWTH = 0.0
 def progress(done, total, name):
     if done == int(sys.argv[3]): os._exit(9)
 (build_gallery if sys.argv[2] == "build" else update_gallery)(sys.argv[1], open_fake, progress=progress)
