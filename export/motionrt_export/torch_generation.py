@@ -6,7 +6,7 @@ The same steps with torch modules in the place of the sessions; with and without
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 from typing import Any
 
@@ -30,6 +30,7 @@ from motionrt_training.networks.motion_denoiser import MotionDenoiser
 from motionrt_training.networks.temos import Temos
 
 Encode = Callable[[str], tuple[Tensor, Tensor]]  # text -> token features (1, T, 384), mask (1, T)
+Load = Callable[[type[Any]], Any]  # kind of network -> the network
 
 
 def make_cases(encode: Encode, folder: Path) -> dict[str, Call]:
@@ -38,20 +39,27 @@ def make_cases(encode: Encode, folder: Path) -> dict[str, Call]:
     return {**generate_calls(generator), DECODE: decode_call(generator)}
 
 
-class TorchGenerator(Generator):
-    """The generator of the runtime, moved by torch."""
+class LoadedGenerator(Generator):
+    """The generator of the runtime, moved by the torch networks that ``load`` gives."""
 
-    def __init__(self, encode: Encode, folder: Path) -> None:
+    def __init__(self, encode: Encode, load: Load) -> None:
         self.sentences: Any = TorchSentences(encode)
-        self.temos: Any = TorchTemos(folder)
-        self.denoiser: Any = torch_denoiser(folder)
-        self._folder, self._prepared = folder, True
+        self.temos: Any = TorchTemos(load(Temos))
+        self.denoiser: Any = torch_denoiser(load(LatentDenoiser))
+        self._load, self._prepared = load, True
 
     @cached_property
     def in_motion_space(self) -> MotionGenerator:
         """The sampler "motion"."""
-        sessions: Any = TorchSessions(motion_denoiser_reference(released(MotionDenoiser, self._folder)))
+        sessions: Any = TorchSessions(motion_denoiser_reference(self._load(MotionDenoiser)))
         return MotionGenerator(sessions, sentences=self.sentences)
+
+
+class TorchGenerator(LoadedGenerator):
+    """The same, of the released networks in a folder."""
+
+    def __init__(self, encode: Encode, folder: Path) -> None:
+        super().__init__(encode, partial(released, folder=folder))
 
 
 class TorchSessions:
@@ -85,8 +93,8 @@ class TorchSentences:
 class TorchTemos:
     """Text encoder and decoder."""
 
-    def __init__(self, folder: Path) -> None:
-        self._model = released(Temos, folder)
+    def __init__(self, model: Temos) -> None:
+        self._model = model
         if not self._model.frame_mean.any():  # fresh weights: a person who stands, instead of rotations of length 0
             self._model.frame_mean[4:] = torch.tensor([1.0, 0.0, 0.0, 0.0, 1.0, 0.0]).repeat((WIDTH - 4) // 6)
 
@@ -102,9 +110,9 @@ class TorchTemos:
         return numpy(self._model.decode(tensor(latent), tensor(mask)))
 
 
-def torch_denoiser(folder: Path) -> Callable[..., tuple[Array, Array]]:
+def torch_denoiser(model: LatentDenoiser) -> Callable[..., tuple[Array, Array]]:
     """As `motionrt.models.latent_denoiser.LatentDenoiser`."""
-    guided = denoiser_reference(released(LatentDenoiser, folder))
+    guided = denoiser_reference(model)
 
     def denoise(*given: Array) -> tuple[Array, Array]:
         found = guided(dict(zip((each.name for each in LATENT_DENOISER.inputs), given, strict=True)))

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cached_property, partial
+from functools import cached_property, lru_cache, partial
 from typing import TYPE_CHECKING, overload
 
 from motionrt.services.service import Service
 from motionrt.synthesis.sampling import DEFAULT_SAMPLER, SECONDS
 
 if TYPE_CHECKING:
+    from motionrt.models.text import FloatArray
     from motionrt.motion import Motion
     from motionrt.synthesis.choosing import Likeness
     from motionrt.synthesis.composing.alignment import Align
@@ -256,10 +257,12 @@ class Synthesis(Service):
             return lambda _text, _motion: 0.0
         model = TextMotionModel(self.sessions, variant=self._variant, sentences=self.sentences)
 
-        def cosine(text: str, motion: Motion) -> float:
-            return float(model.embed_text([text])[0] @ model.embed_motion([guo263.encode(motion)])[0])
+        @lru_cache(maxsize=16)
+        def embedded(text: str) -> FloatArray:
+            row: FloatArray = model.embed_text([text])[0]
+            return row
 
-        return cosine
+        return lambda text, motion: float(embedded(text) @ model.embed_motion([guo263.encode(motion)])[0])
 
     def layers(
         self,

@@ -211,15 +211,13 @@ def _on_way(features: FloatArray, pins: Sequence[tuple[int, tuple[float, float] 
         share = np.sin(np.pi * (np.arange(frame - before) + 0.5) / (frame - before)) ** 2
         share /= share.sum()
         if heading is not None:
-            yaw = _yaw(rows)[frame]
-            off = (np.radians(heading) - yaw + np.pi) % (2 * np.pi) - np.pi
+            off = (np.radians(heading) - ego77.headings(rows)[frame] + np.pi) % (2 * np.pi) - np.pi
             rows[before:frame, 0] += off * share
         if place is not None:
-            yaw = _yaw(rows)[before:frame]
-            missing = np.array(place) - ego77.decode(rows)[frame, 0, [0, 2]]
-            x, z = missing[0] * share, missing[1] * share
-            rows[before:frame, 1] += x * np.cos(yaw) - z * np.sin(yaw)
-            rows[before:frame, 2] += x * np.sin(yaw) + z * np.cos(yaw)
+            x, z = np.array(place) - ego77.decode(rows)[frame, 0, [0, 2]]
+            left, forward = ego77.to_body(x * share, z * share, ego77.headings(rows)[before:frame])
+            rows[before:frame, 1] += left
+            rows[before:frame, 2] += forward
         before = frame
     parts = np.zeros((len(rows), len(PARTS)), bool)
     parts[: before + 1, GLOBAL] = True
@@ -232,11 +230,10 @@ def _as_high(features: FloatArray, keyframe: Keyframe) -> Held:
     held = Held.nothing(len(rows))
     if frame >= len(rows):
         return held
-    first, last = max(0, frame - _REACH), min(len(rows), frame + _REACH + 1)
-    near = np.cos(0.5 * np.pi * (np.arange(first, last) - frame) / (_REACH + 1)) ** 2
+    about, near = _near(frame, len(rows))
     missing = float(keyframe.pose.positions()[0, 0, 1]) - rows[frame, 3]
-    rows[first:last, 3] += (missing * near).astype(np.float32)
-    held.parts[first:last, GLOBAL] = True
+    rows[about, 3] += (missing * near).astype(np.float32)
+    held.parts[about, GLOBAL] = True
     return Held(rows, held.parts)
 
 
@@ -247,25 +244,18 @@ def _reaching(features: FloatArray, target: Target) -> Held:
     if frame >= len(rows):
         return Held.nothing(len(rows))
     missing = np.array(target.place) - ego77.decode(rows)[frame, SMPL24.index(target.joint)]
-    first, last = max(0, frame - _REACH), min(len(rows), frame + _REACH + 1)
-    yaw = _yaw(rows)[first:last]
-    near = np.cos(0.5 * np.pi * (np.arange(first, last) - frame) / (_REACH + 1)) ** 2
-    own = np.stack(
-        [
-            missing[0] * np.cos(yaw) - missing[2] * np.sin(yaw),
-            np.full(len(yaw), missing[1]),
-            missing[0] * np.sin(yaw) + missing[2] * np.cos(yaw),
-        ],
-        axis=1,
-    )
+    about, near = _near(frame, len(rows))
+    left, forward = ego77.to_body(missing[0], missing[2], ego77.headings(rows)[about])
+    own = np.stack([left, np.full(len(left), missing[1]), forward], axis=1)
     for joint, share in _ALONG[end].items():
         column = ego77.JOINTS.start + 3 * (SMPL24.index(f"{side}_{joint}") - 1)
-        rows[first:last, column : column + 3] += share * near[:, None] * own
+        rows[about, column : column + 3] += share * near[:, None] * own
     parts = np.zeros((len(rows), len(PARTS)), bool)
-    parts[first:last, PARTS.index(f"{side} {'arm' if end == 'wrist' else 'leg'}")] = True
+    parts[about, PARTS.index(f"{side} {'arm' if end == 'wrist' else 'leg'}")] = True
     return Held(rows.astype(np.float32), parts)
 
 
-def _yaw(rows: Array) -> Array:
-    """``(F,)`` heading, radians, 0 at the first frame."""
-    return np.concatenate([[0.0], np.cumsum(rows[:-1, 0])])
+def _near(frame: int, frames: int) -> tuple[slice, Array]:
+    """The frames about one over which something is gone to and left again, and how far it is gone to, 1 at the one."""
+    first, last = max(0, frame - _REACH), min(frames, frame + _REACH + 1)
+    return slice(first, last), np.cos(0.5 * np.pi * (np.arange(first, last) - frame) / (_REACH + 1)) ** 2

@@ -53,8 +53,8 @@ def _frame(time: float, fps: float, count: int) -> int | None:
 def _seen(point: Array, joints: Array, yaw: Array) -> Array:
     """A point ``(3,)`` of the world in the frame of the first pose."""
     away = point - joints[0, 0] * [1.0, 0.0, 1.0]
-    c, s = np.cos(yaw[0]), np.sin(yaw[0])
-    return np.array([away[0] * c - away[2] * s, away[1], away[0] * s + away[2] * c])
+    left, forward = ego77.to_body(away[0], away[2], yaw[0])
+    return np.array([left, away[1], forward])
 
 
 def _of_path(joints: Array, yaw: Array, fps: float, constraints: Constraints) -> Iterator[Miss]:

@@ -45,10 +45,8 @@ def solve(denoise: Denoise, noise: FloatArray, steps: int) -> FloatArray:
     levels = noise_levels(steps)
     state = np.asarray(noise * levels[0], np.float32)
     before: FloatArray | None = None
-    for k, level in enumerate(levels.tolist()):
+    for k, level in enumerate(levels[:-1].tolist()):
         clean = denoise(state, level)
-        if k + 1 == len(levels):
-            return clean
         step = np.log(level / levels[k + 1])
         ahead = clean
         if before is not None:
@@ -56,7 +54,7 @@ def solve(denoise: Denoise, noise: FloatArray, steps: int) -> FloatArray:
             ahead = (1 + share) * clean - share * before
         ratio = levels[k + 1] / level
         state, before = np.asarray(ratio * state + (1 - ratio) * ahead, np.float32), clean
-    raise AssertionError("unreachable")
+    return denoise(state, float(levels[-1]))
 
 
 def held_columns() -> npt.NDArray[np.intp]:

@@ -19,8 +19,8 @@ from motionrt.synthesis.motion_generator import MotionGenerator, between
 from motionrt.synthesis.sampling import Sampling
 
 SEEN, NEW, AHEAD = 10, 40, 10
-STEP_S = NEW / ego77.FPS
 """Frames at 20 fps of a step: what went before, what is new, and what is drawn ahead and thrown away."""
+STEP_S = NEW / ego77.FPS
 
 
 class MotionStream(Iterator[Motion]):
@@ -70,10 +70,8 @@ class MotionStream(Iterator[Motion]):
         return self._generator.features(Canvas([piece], held), self._sampling, self._number)
 
     def _placed(self, joints: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-        c, s = np.cos(self._yaw), np.sin(self._yaw)
-        x = joints[..., 0] * c + joints[..., 2] * s + self._place[0]
-        z = -joints[..., 0] * s + joints[..., 2] * c + self._place[1]
-        return np.stack([x, joints[..., 1], z], axis=-1)
+        x, z = ego77.to_body(joints[..., 0], joints[..., 2], -self._yaw)
+        return np.stack([x + self._place[0], joints[..., 1], z + self._place[1]], axis=-1)
 
     def _go_on(self, rows: FloatArray, first: int) -> None:
         """Keep the last frames, and where the first of them stands."""

@@ -24,6 +24,7 @@ from motionrt.motion.attributes import measure
 from motionrt.motion.skeleton import SMPL24
 from motionrt.retrieval import motion_features
 from motionrt.text import agreement, parse_query
+from motionrt_training.evaluate.prompts import read_prompts as prompts_of
 
 AGREES, FLOATS = 0.75, 0.03
 """Least agreement of a motion with its prompt, and metres that its lowest toe may be off the floor on average."""
@@ -80,10 +81,7 @@ def stands(motion: Motion) -> bool:
 
 def read_prompts(path: Path) -> Iterator[tuple[float, str]]:
     """(seconds, prompt) of every line that is neither empty nor a comment."""
-    for line in path.read_text(encoding="utf-8").splitlines():
-        if line.strip() and not line.startswith("#"):
-            seconds, _, text = line.partition("|")
-            yield float(seconds), text.strip()
+    return ((prompt.seconds, prompt.text) for prompt in prompts_of(path))
 
 
 def _likeness(model: TextMotionModel, text: str, motions: Sequence[Motion]) -> list[float]:

@@ -48,9 +48,9 @@ def encode(joints: npt.ArrayLike) -> FloatArray:
     yaw = facing(given)
     pelvis = given[:, 0]
     steps = _ahead(np.diff(pelvis[:, [0, 2]], axis=0))
-    left, forward = _turned(steps[:, 0], steps[:, 1], yaw)
+    left, forward = to_body(steps[:, 0], steps[:, 1], yaw)
     about = given[:, 1:] - pelvis[:, None] * [1.0, 0.0, 1.0]
-    x, z = _turned(about[..., 0], about[..., 2], yaw[:, None])
+    x, z = to_body(about[..., 0], about[..., 2], yaw[:, None])
     own = np.stack([x, about[..., 1], z], axis=-1).reshape(len(given), -1)
     root = np.stack([_ahead(np.diff(yaw)[:, None])[:, 0], left, forward, pelvis[:, 1]], axis=1)
     return np.concatenate([root, own, contacts(given)], axis=1).astype(np.float32)
@@ -65,14 +65,25 @@ def decode(features: npt.ArrayLike) -> Array:
     rows = np.asarray(features, dtype=np.float64)
     if rows.ndim != 2 or rows.shape[1] != WIDTH or not len(rows):
         raise InvalidInputError(f"expected ego77 features (frames >= 1, {WIDTH}), found shape {rows.shape}")
-    yaw = _summed(rows[:, :1])[:, 0]
-    x, z = _turned(rows[:, 1], rows[:, 2], -yaw)
+    yaw = headings(rows)
+    x, z = to_body(rows[:, 1], rows[:, 2], -yaw)
     ground = _summed(np.stack([x, z], axis=1))
     own = rows[:, JOINTS].reshape(len(rows), -1, 3)
-    x, z = _turned(own[..., 0], own[..., 2], -yaw[:, None])
+    x, z = to_body(own[..., 0], own[..., 2], -yaw[:, None])
     pelvis = np.stack([ground[:, 0], rows[:, 3], ground[:, 1]], axis=1)
     others = np.stack([x + ground[:, :1], own[..., 1], z + ground[:, 1:]], axis=-1)
     return np.concatenate([pelvis[:, None], others], axis=1)
+
+
+def headings(features: Array) -> Array:
+    """``(F,)`` heading of every frame of features ``(F, 77)``, radians, 0 at the first, left positive."""
+    return _summed(features[:, :1])[:, 0]
+
+
+def to_body(x: Array, z: Array, yaw: Array | float) -> tuple[Array, Array]:
+    """Ways over the ground in the world's axes as (left, forward) of who faces ``yaw``; back again by its negative."""
+    c, s = np.cos(yaw), np.sin(yaw)
+    return x * c - z * s, x * s + z * c
 
 
 def mirrored(features: npt.ArrayLike) -> FloatArray:
@@ -110,12 +121,6 @@ def _ahead(steps: Array) -> Array:
 
 def _summed(steps: Array) -> Array:
     return np.concatenate([np.zeros((1, steps.shape[1])), np.cumsum(steps[:-1], axis=0)])
-
-
-def _turned(x: Array, z: Array, yaw: Array) -> tuple[Array, Array]:
-    """World to body (left, forward) by a heading; the other way by its negative."""
-    c, s = np.cos(yaw), np.sin(yaw)
-    return x * c - z * s, x * s + z * c
 
 
 def _smoothed(values: Array, deviation: float) -> Array:
