@@ -19,7 +19,9 @@ from motionrt.motion.events import events
 from motionrt.runtime import Runtime
 from motionrt.synthesis.sampling import SECONDS
 from motionrt.text import agreement, parse_query
-from motionrt.untrusted.arguments import checked_number, checked_whole
+from motionrt.untrusted.arguments import check_flags, check_functions, check_kind, checked_number, checked_whole, listed
+from motionrt.untrusted.files import as_path
+from motionrt.untrusted.words import shown
 
 ACCEPTED = 0.75
 """Agreement of a clip's measured attributes with its prompt from which on it is taken."""
@@ -84,17 +86,21 @@ def make(
     Raises:
         InvalidInputError: no prompts, an empty one, or a number out of range.
     """
-    texts = [checked_text(prompt) for prompt in prompts]
+    texts = [checked_text(prompt) for prompt in listed(prompts, "prompts", "texts")]
     if not texts:
         raise InvalidInputError("give at least one prompt")
-    if suffix not in SUFFIXES:
-        raise InvalidInputError(f"suffix must be one of {', '.join(SUFFIXES)}, not {suffix!r}")
+    if not isinstance(suffix, str) or suffix not in SUFFIXES:
+        raise InvalidInputError(f"suffix must be one of {', '.join(SUFFIXES)}, not {shown(suffix)}")
+    check_functions(progress=progress)
+    check_kind(runtime, Runtime | None, "runtime", "a Runtime")
+    check_flags(loop=loop, in_place=in_place)
+    checked_whole(seed, "seed", 0)
     checked_number(accept, "accept", 0.0, 1.0)
     checked_whole(each, "each", 1, 1000)
     checked_whole(tries, "tries", 1, 1000)
-    target = Path(folder)
+    target = as_path(folder)
     target.mkdir(parents=True, exist_ok=True)
-    maker = _Maker(runtime or Runtime(), seconds, accept, tries, loop, in_place)
+    maker = _Maker(runtime if runtime is not None else Runtime(), seconds, accept, tries, loop, in_place)
     found = []
     for prompt in dict.fromkeys(texts):
         for number in range(each):

@@ -14,7 +14,7 @@ from motionrt.synthesis.generating import Generator
 from motionrt.synthesis.motion_generator import Wanted
 from motionrt.synthesis.sampling import Sampling
 from motionrt.synthesis.timeline import Item, Line, read_timeline
-from motionrt.untrusted.arguments import checked_whole
+from motionrt.untrusted.arguments import check_flags, checked_whole
 
 MOST_CANDIDATES = 64
 
@@ -41,6 +41,7 @@ class Asked:
 
     def __post_init__(self) -> None:
         checked_whole(self.candidates, "candidates", 1, MOST_CANDIDATES)
+        check_flags(loop=self.loop, in_place=self.in_place)
         if self.constraints is not None and not isinstance(self.constraints, Constraints):
             raise InvalidInputError(f"constraints must be Constraints, not {type(self.constraints).__name__}")
 

@@ -31,7 +31,7 @@ from motionrt.motion.body_parts import checked_parts
 from motionrt.synthesis.constraints import Constraints, Kept, Keyframe, Target, Waypoint
 from motionrt.synthesis.timeline import Item
 from motionrt.untrusted import yaml_text
-from motionrt.untrusted.files import beside, read_utf8
+from motionrt.untrusted.files import as_path, beside, read_utf8
 
 KIMODO_FPS = 30.0
 _KEYS = ("timeline", "path", "targets", "keyframes", "keep")
@@ -60,7 +60,7 @@ class Plan:
         Raises:
             ScriptError: it cannot be read, or something in it is unknown, missing or of the wrong kind.
         """
-        path = Path(file)
+        path = as_path(file)
         reader = _Reader(path)
         value = reader.parsed()
         if isinstance(value, list):
