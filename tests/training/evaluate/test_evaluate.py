@@ -15,7 +15,8 @@ from motionrt.metrics import RECALL_AT
 from motionrt.motion import Motion
 from motionrt.motion.features import guo263
 from motionrt_training.corpora import Clip, MotionCorpus
-from motionrt_training.corpora.pack import pack, read_corpus, rows_of
+from motionrt_training.corpora.pack import pack, rows_of
+from motionrt_training.corpora.reading import read_corpus
 from motionrt_training.evaluate.files import FilesRow
 from motionrt_training.evaluate.moments import evaluate_moments
 from motionrt_training.evaluate.pairs import PairSet, read_pairs

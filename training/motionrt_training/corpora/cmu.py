@@ -14,6 +14,7 @@ from typing import Any
 
 from motionrt.errors import FormatError, MotionFileNotFoundError
 from motionrt_training.corpora.corpus import Clip, MotionCorpus
+from motionrt_training.corpora.report import ReadReport
 
 
 def read_cmu(folder: str | Path) -> MotionCorpus:
@@ -27,7 +28,9 @@ def read_cmu(folder: str | Path) -> MotionCorpus:
     if not captions.is_file():
         raise MotionFileNotFoundError(f"{captions} does not exist; point to the folder that holds captions.jsonl")
     clips = tuple(_clip(Path(folder), row, captions, line) for line, row in caption_rows(captions))
-    return MotionCorpus("cmu", clips)
+    report = ReadReport("cmu", captions.name, len({clip.path for clip in clips}))
+    report.count(clip.split for clip in clips)
+    return MotionCorpus("cmu", clips, report=report)
 
 
 def caption_rows(path: Path) -> Iterator[tuple[int, dict[str, Any]]]:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from pathlib import Path
 
-from motionrt.errors import InvalidInputError
+from motionrt.errors import FormatError, InvalidInputError, RigError
 from motionrt.formats import load_motion
 from motionrt.motion import Motion
+from motionrt_training.corpora.report import ReadReport
 
 SPLITS = ("train", "val", "test")
 
@@ -27,6 +28,7 @@ class Clip:
         labels: simultaneous action labels, where the data set has them.
         group: clips of one group show the same recorded stretch; by default a clip is alone.
         source: the pack that it came in, where a corpus has several.
+        categories: action categories, where the data set has them (``act_cat`` of BABEL).
     """
 
     id: str
@@ -38,6 +40,7 @@ class Clip:
     labels: tuple[str, ...] = field(default=())
     group: str = ""
     source: str = ""
+    categories: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         if self.split not in SPLITS:
@@ -50,22 +53,44 @@ class Clip:
 
 @dataclass(frozen=True)
 class MotionCorpus:
-    """A named list of clips, and how to read their recordings (``loader`` returns a grounded Motion)."""
+    """A named list of clips, and how to read their recordings (``loader`` returns a grounded Motion).
+
+    ``report`` says what was found and what was left out; motions that cannot be read are added to it.
+    """
 
     name: str
     clips: tuple[Clip, ...]
     loader: Callable[[Path], Motion] = field(default=lambda path: load_motion(path).grounded())
+    report: ReadReport | None = field(default=None, compare=False)
 
     def __len__(self) -> int:
         return len(self.clips)
 
     def split(self, name: str) -> MotionCorpus:
         """The clips of one split."""
-        return MotionCorpus(self.name, tuple(clip for clip in self.clips if clip.split == name), self.loader)
+        return replace(self, clips=tuple(clip for clip in self.clips if clip.split == name))
 
     def motions(self) -> Iterator[tuple[Clip, Motion]]:
-        """Every clip with its motion, in order; neighbouring clips of one recording read its file once."""
-        read = lru_cache(maxsize=2)(self.loader)
+        """Every clip with its motion, in order; neighbouring clips of one recording read its file once.
+
+        With a report, recordings that cannot be read and clips that begin behind their ends are noted there; without
+        one the first of them is an error.
+        """
+        read = lru_cache(maxsize=2)(self._read)
         for clip in self.clips:
             recording = read(clip.path)
+            if recording is None:
+                continue
+            if self.report is not None and clip.start_s >= recording.duration:
+                self.report.skip(clip.id, "begins behind the end of its recording")
+                continue
             yield clip, recording.between(clip.start_s, recording.duration if clip.end_s is None else clip.end_s)
+
+    def _read(self, path: Path) -> Motion | None:
+        try:
+            return self.loader(path)
+        except (FormatError, RigError) as error:
+            if self.report is None:
+                raise
+            self.report.skip(str(path), f"cannot be read ({error.reason if isinstance(error, FormatError) else error})")
+            return None

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import argparse
 import json
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
@@ -21,37 +21,18 @@ import numpy as np
 from numpy.typing import NDArray
 from tqdm import tqdm
 
-from motionrt.errors import InvalidInputError
 from motionrt.motion import Motion
 from motionrt.motion.features import guo263
-from motionrt_training.corpora.babel import read_babel
-from motionrt_training.corpora.cmu import read_cmu
-from motionrt_training.corpora.corpus import Clip, MotionCorpus
-from motionrt_training.corpora.humanml3d import read_humanml3d
+from motionrt_training.command import reports_errors
+from motionrt_training.corpora.corpus import Clip
 from motionrt_training.corpora.joining import joined_clips
-from motionrt_training.corpora.kitml import read_kitml
 from motionrt_training.corpora.mocap import Recording, read_mocap
+from motionrt_training.corpora.reading import add_options, read_named
 from motionrt_training.corpora.stretches import recorded_clips, take_pairs
 from motionrt_training.corpora.text_mirror import mirror_text
 from motionrt_training.corpora.windows import windows_of
 
-AMASS_READERS: dict[str, Callable[[str, str], MotionCorpus]] = {
-    "babel": read_babel,
-    "humanml3d": read_humanml3d,
-    "kitml": read_kitml,
-}
 Row = tuple[NDArray[np.float16], dict[str, object]]
-
-
-def read_corpus(name: str, folder: str, amass: str | None = None) -> MotionCorpus:
-    """The corpus called ``name`` (cmu, kitml, humanml3d, babel); all but cmu annotate an AMASS folder."""
-    if name == "cmu":
-        return read_cmu(folder)
-    if name not in AMASS_READERS:
-        raise InvalidInputError(f"no corpus reader '{name}'; there are: cmu, {', '.join(sorted(AMASS_READERS))}")
-    if amass is None:
-        raise InvalidInputError(f"{name} annotates AMASS sequences: name their folder with --amass")
-    return AMASS_READERS[name](folder, amass)
 
 
 def pack(rows: Iterable[Row], path: str | Path, *, joined: int = 0, seed: int = 1) -> Path:
@@ -97,12 +78,11 @@ def _texts(clip: Clip) -> list[str]:
     return [*clip.texts, *extra]
 
 
+@reports_errors
 def main() -> None:
     """The command line."""
     parser = argparse.ArgumentParser(description="Compute the features of a captioned corpus once.")
-    parser.add_argument("corpus", choices=["mocap", "cmu", *sorted(AMASS_READERS)])
-    parser.add_argument("folder", help="the data set's folder of annotations (and, for mocap and cmu, motions)")
-    parser.add_argument("--amass", help="the AMASS folder that kitml, humanml3d and babel annotate")
+    add_options(parser, "mocap")
     parser.add_argument("--unpacked", help="mocap: where the archives of its second delivery were unpacked")
     parser.add_argument("--sources", nargs="+", help="mocap: only these sources (default: all)")
     parser.add_argument("--joined", type=int, default=800, help="clips of two windows one after the other")
@@ -114,8 +94,9 @@ def main() -> None:
 
 def _rows(args: argparse.Namespace) -> Iterator[Row]:
     if args.corpus != "mocap":
-        corpus = read_corpus(args.corpus, args.folder, args.amass)
+        corpus = read_named(args)
         yield from rows_of(tqdm(corpus.motions(), total=len(corpus), desc="packing", unit="clip"))
+        print(corpus.report or f"{corpus.name}: {len(corpus)} clips")
         return
     recordings = read_mocap(args.folder, args.unpacked, args.sources)
     recordings = (*recordings, *take_pairs(recordings, Path(args.folder) / "cmu"))
