@@ -2,8 +2,9 @@
 
     python tests/fuzz/interrupts.py [CALL ...]
 
-A process makes the call, this one sends SIGINT at several moments of it. Prints the longest wait by call, and exits
-with 1 if one is above 0.2 s, a thread is left, or a signal handler has changed.
+A process makes the call, this one sends SIGINT at several moments of it. Prints the longest wait by call, in seconds of
+the processor, which other programs do not lengthen, and exits with 1 if one is above 0.2 s, a thread is left, or a
+signal handler has changed.
 """
 
 from __future__ import annotations
@@ -27,6 +28,8 @@ sys.path[:0] = [str(HERE), str(HERE.parent / "helpers")]
 LIMIT_S = 0.2
 MOMENTS = (0.15, 0.4, 0.75, 1.2)
 """Seconds after the start of a call."""
+OTHERS = 10
+"""How many times as long other programs may make a wait."""
 
 
 LONG = {"embed_motion", "resample", "mirror", "positions", "save bvh", "save glb"}
@@ -111,10 +114,13 @@ def child(name: str, folder: Path) -> None:
             call()
         except KeyboardInterrupt:
             outcome = "interrupted"
-        over = time.monotonic()
+        over, used = time.monotonic(), time.process_time()
         threads = [thread.name for thread in threading.enumerate() if thread is not threading.main_thread()]
         handlers = before != [signal.getsignal(number) for number in signal.valid_signals()]
-        print(json.dumps({"outcome": outcome, "at": over, "threads": threads, "handlers": handlers}), flush=True)
+        print(
+            json.dumps({"outcome": outcome, "at": over, "used": used, "threads": threads, "handlers": handlers}),
+            flush=True,
+        )
 
 
 def names(folder: Path) -> list[str]:
@@ -126,7 +132,7 @@ def names(folder: Path) -> list[str]:
 
 
 def waits(name: str, folder: Path, moments: tuple[float, ...] = MOMENTS) -> tuple[list[float], list[str]]:
-    """Seconds from each signal to the end of the call, and what is wrong beside that."""
+    """Seconds of the processor from each signal to the end of the call, and what is wrong beside that."""
     command = [sys.executable, __file__, "--child", name, str(folder)]
     pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True, "start_new_session": True}
     seconds, wrong = [], []
@@ -137,17 +143,23 @@ def waits(name: str, folder: Path, moments: tuple[float, ...] = MOMENTS) -> tupl
             print("go", file=process.stdin, flush=True)
             assert process.stdout.readline().strip() == "begins"
             time.sleep(moment)
-            sent = time.monotonic()
+            sent, used = time.monotonic(), _processor_seconds(process.pid)
             os.killpg(process.pid, signal.SIGINT)  # as a terminal does it: all processes of the command
             said = json.loads(process.stdout.readline())
             if said["outcome"] == "interrupted":
-                seconds.append(said["at"] - sent)
+                seconds.append(max(said["used"] - used, (said["at"] - sent) / OTHERS))
             else:
                 wrong.append(f"over before {moment} s")
             wrong += [f"threads left: {said['threads']}"] if said["threads"] else []
             wrong += ["signal handlers changed"] if said["handlers"] else []
         process.stdin.close()
     return seconds, wrong
+
+
+def _processor_seconds(pid: int) -> float:
+    """What a process has used of the processor so far."""
+    words = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
+    return sum(map(int, words[11:13])) / os.sysconf("SC_CLK_TCK")
 
 
 def main() -> int:

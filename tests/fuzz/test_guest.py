@@ -23,12 +23,11 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return made
 
 
+@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="the time of the processor is read from /proc")
 @pytest.mark.parametrize("call", ["walk", "generate", "build_gallery", "load bvh"])
 def test_ctrl_c_ends_a_long_call_at_once_and_leaves_nothing_behind(folder: Path, call: str) -> None:
     seconds, wrong = waits(call, folder, moments=(0.15, 0.4))
     assert [words for words in wrong if "over" not in words] == []
-    if max(seconds, default=1.0) > LIMIT_S:  # another program may have had the processor
-        seconds, _ = waits(call, folder, moments=(0.15, 0.4))
     assert max(seconds, default=1.0) <= LIMIT_S
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import codecs
 import math
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -20,7 +21,7 @@ LARGEST_VALUE = 1e7
 
 
 _PLAIN = "0123456789+-.eE \t\n"
-_BLOCK = 1 << 20  # characters
+_BLOCK = 1 << 19  # characters
 
 
 def require_file(path: Path) -> None:
@@ -84,27 +85,43 @@ def numbers_in(text: str, count: int) -> npt.NDArray[np.float64] | None:
 
     Quick where there are ``count`` of them.
     """
-    if not text.strip(_PLAIN):
+    values = _at_once(text)
+    if values is not None and values.size == count:
+        return values if bool((np.abs(values) <= LARGEST_VALUE).all()) else None
+    return _by_words(text)
+
+
+def _at_once(text: str) -> npt.NDArray[np.float64] | None:
+    """The numbers that NumPy reads in a text of plain numbers, which may end early; ``None`` for any other text."""
+    parts = []
+    for block in _blocks(text):
+        if block.strip(_PLAIN):
+            return None
         try:
-            values = np.fromstring(text, dtype=np.float64, sep=" ")
+            parts.append(np.fromstring(block, dtype=np.float64, sep=" "))
         except (ValueError, DeprecationWarning):  # "1-2"; older versions of NumPy end there
-            values = np.empty(0)
-        if values.size == count:
-            return values if bool((np.abs(values) <= LARGEST_VALUE).all()) else None
-    return _in_blocks(text)
+            return None
+    return np.concatenate(parts) if parts else np.empty(0)
 
 
-def _in_blocks(text: str) -> npt.NDArray[np.float64] | None:
-    """All numbers of a text, some lines at a time: words cost much more memory than numbers."""
-    parts, at = [], 0
-    while at < len(text):
-        end = text.find("\n", at + _BLOCK) + 1 or len(text)
-        part = to_floats(text[at:end].split())
+def _by_words(text: str) -> npt.NDArray[np.float64] | None:
+    """All numbers of a text, a block at a time: words cost much more memory than numbers."""
+    parts = []
+    for block in _blocks(text):
+        part = to_floats(block.split())
         if part is None:
             return None
         parts.append(part)
-        at = end
     return np.concatenate(parts) if parts else np.empty(0)
+
+
+def _blocks(text: str) -> Iterator[str]:
+    """Some whole lines of a text at a time: Ctrl-C is heard between them."""
+    at = 0
+    while at < len(text):
+        end = text.find("\n", at + _BLOCK) + 1 or len(text)
+        yield text[at:end]
+        at = end
 
 
 def to_floats(words: list[str]) -> npt.NDArray[np.float64] | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from motionrt.motion.batches import by_batches
 from motionrt.motion.motion import Motion
 from motionrt.motion.skeleton import SMPL24
 from motionrt.rigs.clip import RigClip
@@ -30,8 +31,9 @@ def as_own_motion(clip: RigClip) -> Motion | None:
     offsets, body = clip.offsets[order][1:].astype(np.float64), SMPL24.offsets[1:]
     ratio = float(np.linalg.norm(body)) / max(float(np.linalg.norm(offsets)), 1e-12)
     scale = _snapped(ratio)
-    moves = float(np.abs(clip.translations[:, order][:, 1:] - clip.offsets[order][1:]).max())
-    if scale * moves > _TOLERANCE or np.abs(scale * offsets - body).max() > _TOLERANCE:
+    limbs = order[1:]
+    moves = by_batches(lambda some: np.abs(some[:, limbs] - clip.offsets[limbs]).max(axis=(1, 2)), clip.translations)
+    if scale * float(moves.max()) > _TOLERANCE or np.abs(scale * offsets - body).max() > _TOLERANCE:
         return None
     return Motion(clip.rotations[:, order], scale * clip.translations[:, order[0]], clip.fps)
 
