@@ -6,12 +6,13 @@
     python -m motionrt_export validate --model tmr_text --variant int8 --file models/tmr_text.int8.onnx
     python -m motionrt_export time
     python -m motionrt_export assets
+    python -m motionrt_export portable -o build/portable
 
 The first command rebuilds the ONNX files and the manifest, and proves every file against torch in a process of its
 own, and what the files make together; whatever is beyond its tolerance ends it with exit code 1. With `--only` files
 and entries of the other models stay as they are. `validate` proves what is there and writes nothing. `time` measures
 one call of every file beside torch, for the next export. `assets` makes the package data that depends on the models:
-the embeddings of the starter gallery and of the captions.
+the embeddings of the starter gallery and of the captions. `portable` writes files of standard operators for engines.
 """
 
 from __future__ import annotations
@@ -27,6 +28,7 @@ import torch
 
 from motionrt import Runtime
 from motionrt.errors import MotionRTError
+from motionrt_export import portable
 from motionrt_export.layout import Layout
 from motionrt_export.measured import NAME, Measured
 from motionrt_export.pipelines import PIPELINES
@@ -51,7 +53,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def parser() -> argparse.ArgumentParser:
-    """Four commands."""
+    """One command for each thing to make."""
     result = argparse.ArgumentParser(prog="motionrt_export", description="Export the trained models to ONNX.")
     commands = result.add_subparsers(required=True, metavar="COMMAND")
     everything = commands.add_parser("all", help="export, quantise, validate and write the manifest")
@@ -76,6 +78,11 @@ def parser() -> argparse.ArgumentParser:
     assets.add_argument("--models", type=Path, help="manifest or folder (default: the shipped models)")
     assets.add_argument("--out", type=Path, default=Path("runtime/motionrt/_assets"))
     assets.set_defaults(run=_assets)
+    engines = commands.add_parser("portable", help="files of standard operators, for Unity, WebGPU and other engines")
+    engines.add_argument("--checkpoints", type=Path, default=Path("models"), help="folder of the released networks")
+    engines.add_argument("-o", "--out", type=Path, default=Path("build/portable"), help="(default: %(default)s)")
+    engines.add_argument("--only", nargs="+", metavar="MODEL", help="only these models")
+    engines.set_defaults(run=_portable)
     return result
 
 
@@ -132,6 +139,13 @@ def _assets(args: argparse.Namespace) -> int:
     gallery = embed_starter(runtime, args.out / "starter")
     runtime.captions().save(args.out / "captions.npz")
     print(f"{args.out}: a starter gallery of {len(gallery)} motions, and the captions")
+    return 0
+
+
+def _portable(args: argparse.Namespace) -> int:
+    torch.set_num_threads(1)
+    index = portable.build(Sources(args.checkpoints), args.out, print, args.only)
+    print(f"{index}\n{portable.table(index)}")
     return 0
 
 
