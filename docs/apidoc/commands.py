@@ -5,12 +5,26 @@ from __future__ import annotations
 import argparse
 from collections.abc import Iterator
 
+ABOUT = """\
+`motionrt COMMAND --help` says the same. Every command that prints data takes `--json`; every command takes `--quiet`
+(`-q`) and `--verbose` (`-v`). `motionrt completion bash` prints what a shell needs to complete them.
+
+| exit code | |
+|---:|---|
+| 0 | done |
+| 1 | an error, one line on stderr; or what was checked did not pass |
+| 2 | wrong usage |
+| 3 | done, but some files or prompts were skipped, with reasons on stderr |
+| 70 | a mistake of the program; `--verbose` shows where |
+| 130 | interrupted |
+| 141 | whoever read the output has gone |"""
+
 
 def commands_page() -> str:
     """The command line, command by command."""
     from motionrt.cli import _parser
 
-    parts = ["# Commands", "`motionrt COMMAND --help` says the same. Every command that prints data takes `--json`."]
+    parts = ["# Commands", ABOUT]
     for name, parser in _leaves(_parser(), "motionrt"):
         text = parser.description or ""
         head, _, rest = text.partition("\n")
@@ -20,7 +34,7 @@ def commands_page() -> str:
 
 
 def _is_shown(action: argparse.Action) -> bool:
-    return action.dest != "help" and action.help not in {None, argparse.SUPPRESS}
+    return action.dest not in {"help", "quiet", "verbose"} and action.help not in {None, argparse.SUPPRESS}
 
 
 def actions_of(parser: argparse.ArgumentParser) -> list[argparse.Action]:

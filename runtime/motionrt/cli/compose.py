@@ -6,9 +6,10 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from motionrt.cli.console import print_json, print_table
+from motionrt.cli.console import print_json, print_table, working
 from motionrt.cli.making import add_chance, as_json, chance, tell_seed
-from motionrt.cli.options import add_json, add_models, command, runtime
+from motionrt.cli.options import add_json, add_models, add_output, command, runtime
+from motionrt.cli.parsing import WrongUsageError
 from motionrt.cli.reading import spare_inputs
 
 if TYPE_CHECKING:
@@ -21,17 +22,16 @@ Rows = list[dict[str, Any]]
 LETTERS = "abcdef"  # for as many layers parts and masks can be given; no body has more parts
 HELP = """play several motions at once: the arms of one on the legs of another
 A, B and so on are motion files or texts, which are generated. Each moves the body parts that its text needs, or those
-you name: left arm, right arm, left leg, right leg, torso, global. The one with fewer parts lies on top; a leg or
-global takes both legs, the way and the direction along. The first moves all that the others leave."""
+you name: left arm, right arm, left leg, right leg, torso, global. A file gives those of its arms and its torso that
+move fast. A keeps its legs and its way, unless the text or the parts of another need them. The one with fewer parts
+lies on top; a leg or global takes both legs, the way and the direction along."""
 
 
 def add(commands: Any) -> None:
     """Add the command."""
     parser = command(commands, "compose", run, HELP)
     parser.add_argument("given", nargs="+", metavar="MOTION|TEXT", help="two or more: A, B, C ...")
-    parser.add_argument(
-        "-o", "--output", type=Path, required=True, metavar="OUT", help="file to write (.bvh, .glb, .npz)"
-    )
+    add_output(parser)
     for letter in LETTERS:
         _add_layer(parser, letter)
     parser.add_argument("--joint", action="store_true", help="give the model all texts in one sentence instead")
@@ -61,8 +61,9 @@ def run(arguments: argparse.Namespace) -> int:
     options: dict[str, Any] = {"seconds": arguments.seconds, **chance(arguments)}
     if not texts and arguments.seed is None:  # there is no chance in files
         options["seed"] = None
-    opened = runtime(arguments)
-    motion, rows = _joint(opened, arguments, options) if arguments.joint else _layered(opened, arguments, options)
+    opened, made = runtime(arguments), _joint if arguments.joint else _layered
+    with working("composing"):
+        motion, rows = made(opened, arguments, options)
     spare_inputs(arguments.output, *(Path(given) for given in arguments.given if not is_text(given)))
     path = motion.save(arguments.output)
     seed = options.get("seed")
@@ -90,13 +91,11 @@ def _layered(opened: Runtime, arguments: argparse.Namespace, options: dict[str, 
 
 def _named(arguments: argparse.Namespace, what: str) -> list[list[str] | None] | None:
     """What ``--parts-a``, ``--parts-b`` ... or ``--mask-a`` ... say, one entry for every layer; None for nothing."""
-    from motionrt.errors import InvalidInputError
-
     given = [getattr(arguments, f"{what}_{letter}") for letter in LETTERS]
     count = len(arguments.given)
     if any(given[count:]):
         letter = next(letter for letter, names in zip(LETTERS[count:], given[count:], strict=True) if names)
-        raise InvalidInputError(f"--{what}-{letter} is for a motion that is not there: only {count} are given")
+        raise WrongUsageError(f"--{what}-{letter} is for a motion that is not there: only {count} are given")
     names = [None if one is None else [name.strip() for name in one.split(",")] for one in given[:count]]
     names += [None] * (count - len(names))
     return names if any(names) else None

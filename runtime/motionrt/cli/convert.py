@@ -7,8 +7,9 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from motionrt.cli.console import Progress, print_json
+from motionrt.cli.console import Progress, print_json, working
 from motionrt.cli.options import add_json, command
+from motionrt.cli.parsing import WrongUsageError
 from motionrt.cli.reading import INPUTS, add_reading, in_options, read_motion, spare_inputs
 from motionrt.cli.skipped import SOME_SKIPPED, say_skipped
 
@@ -43,7 +44,8 @@ def add(commands: Any) -> None:
 def _writer(commands: Any, name: str, run: Any, text: str, given: str, made: str) -> argparse.ArgumentParser:
     parser = command(commands, name, run, text)
     parser.add_argument("input", type=Path, metavar="IN", help=f"{given} ({INPUTS})")
-    parser.add_argument("output", type=Path, metavar="OUT", help=f"{made} ({OUTPUTS})")
+    parser.add_argument("-o", "--output", type=Path, metavar="OUT", help=f"{made} ({OUTPUTS})")
+    parser.add_argument("second", type=Path, nargs="?", metavar="OUT", help="the same, without -o")
     parser.add_argument("--units", choices=("cm", "m", "mm", "in"), help="of a .bvh (default: cm)")
     parser.add_argument("--t-pose", action="store_true", help="begin a .bvh with a frame of the T-pose")
     add_reading(parser)
@@ -53,6 +55,7 @@ def _writer(commands: Any, name: str, run: Any, text: str, given: str, made: str
 
 def run(arguments: argparse.Namespace) -> int:
     """Convert a file or a folder, and say what was written."""
+    _settle_output(arguments)
     if arguments.input.is_dir():
         return _run_folder(arguments)
     motion = read_motion(arguments, arguments.input)
@@ -63,6 +66,7 @@ def run_trim(arguments: argparse.Namespace) -> int:
     """Write a part of a motion."""
     from motionrt.errors import InvalidInputError
 
+    _settle_output(arguments)
     motion = read_motion(arguments, arguments.input)
     end = motion.duration if arguments.end is None else arguments.end
     if not 0 <= arguments.start < end or arguments.start >= motion.duration:
@@ -74,12 +78,21 @@ def run_trim(arguments: argparse.Namespace) -> int:
 
 def run_resample(arguments: argparse.Namespace) -> int:
     """Write a motion at another frame rate."""
+    _settle_output(arguments)
     return _finish(arguments, read_motion(arguments, arguments.input).resample(arguments.fps))
+
+
+def _settle_output(arguments: argparse.Namespace) -> None:
+    """The file to write is given by ``-o`` or behind the one that is read."""
+    if (arguments.output is None) == (arguments.second is None):
+        raise WrongUsageError("say where to write once, as in: -o OUT")
+    arguments.output = arguments.output or arguments.second
 
 
 def _finish(arguments: argparse.Namespace, motion: Motion) -> int:
     spare_inputs(arguments.output, arguments.input)
-    path = motion.save(arguments.output, units=arguments.units, t_pose=arguments.t_pose)
+    with working("writing"):
+        path = motion.save(arguments.output, units=arguments.units, t_pose=arguments.t_pose)
     if arguments.json:
         print_json({"path": str(path), "frames": motion.frames, "fps": motion.fps, "seconds": motion.duration})
     else:

@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from motionrt.cli.console import print_json, print_table
+from motionrt.cli.console import print_json, print_table, working
 from motionrt.cli.options import add_json, add_models, add_text_tower, command, runtime
 from motionrt.cli.reading import INPUTS, add_reading, read_motion
 
@@ -31,7 +31,8 @@ def run(arguments: argparse.Namespace) -> int:
 
     motion = read_motion(arguments, arguments.clip)
     captions = None if arguments.captions is None else read_captions(arguments.captions)
-    found = runtime(arguments).describe(motion, arguments.k, captions)
+    with working("describing"):
+        found = runtime(arguments).describe(motion, arguments.k, captions)
     if arguments.json:
         print_json(
             [

@@ -7,7 +7,7 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from motionrt.cli.console import Progress, print_json
+from motionrt.cli.console import Progress, print_json, working
 from motionrt.cli.options import add_json, add_models, command, runtime
 from motionrt.cli.reading import INPUTS, add_reading, in_options, reading
 from motionrt.cli.skipped import SOME_SKIPPED, by_reason, say_skipped
@@ -37,7 +37,13 @@ def add(commands: Any) -> None:
     parts = group.add_subparsers(title="commands", metavar="COMMAND", required=True)
     build = command(parts, "build", run_build, BUILD)
     build.add_argument("folder", type=Path, help="where the motion files are")
-    build.add_argument("-o", "--out", type=Path, metavar="DIR", help="gallery (default: FOLDER/.motionrt-gallery)")
+    build.add_argument(
+        *("-o", "--output", "--out"),
+        dest="out",
+        type=Path,
+        metavar="DIR",
+        help="gallery (default: FOLDER/.motionrt-gallery)",
+    )
     add_reading(build)
     update = command(parts, "update", run_update, UPDATE)
     update.add_argument("gallery", type=Path, help="a gallery, or the folder that was indexed")
@@ -103,7 +109,8 @@ def run_verify(arguments: argparse.Namespace) -> int:
     from motionrt.retrieval import Gallery
 
     gallery = Gallery.open(arguments.gallery)
-    gallery.verify()
+    with working("checking"):
+        gallery.verify()
     if arguments.json:
         print_json({**describe(gallery), "whole": True})
     else:
@@ -115,7 +122,8 @@ def run_duplicates(arguments: argparse.Namespace) -> int:
     """``gallery duplicates``."""
     from motionrt.retrieval import Gallery, duplicates
 
-    groups = duplicates(Gallery.open(arguments.gallery), arguments.cosine)
+    with working("comparing"):
+        groups = duplicates(Gallery.open(arguments.gallery), arguments.cosine)
     if arguments.json:
         print_json([{"ids": list(g.ids), "identical": g.identical, "cosine": round(g.cosine, 6)} for g in groups])
         return 0

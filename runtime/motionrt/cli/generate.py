@@ -6,9 +6,10 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from motionrt.cli.console import print_json, print_table, say
+from motionrt.cli.console import print_json, print_table, say, working
 from motionrt.cli.making import add_chance, as_json, chance, skate, tell_seed
-from motionrt.cli.options import add_json, add_models, command, runtime
+from motionrt.cli.options import add_json, add_models, add_output, command, runtime
+from motionrt.cli.parsing import WrongUsageError
 
 if TYPE_CHECKING:
     from motionrt.motion import Motion
@@ -29,9 +30,7 @@ def add(commands: Any) -> None:
     parser.add_argument(
         "--plan", type=Path, metavar="FILE", help="texts with their times, poses, a path (docs/plans.md)"
     )
-    parser.add_argument(
-        "-o", "--output", type=Path, required=True, metavar="OUT", help="file to write (.bvh, .glb, .npz)"
-    )
+    add_output(parser)
     parser.add_argument("--seconds", type=float, metavar="S", help="0.5 to 10 (default: 4)")
     parser.add_argument("-n", type=int, default=1, metavar="N", help="how many motions (default: 1)")
     parser.add_argument(
@@ -59,9 +58,10 @@ def run(arguments: argparse.Namespace) -> int:
     asked = {"text": arguments.text} if plan is None or not plan.timeline else {"timeline": plan.timeline}
     asked |= {"constraints": plan.constraints} if plan is not None else {}
     asked |= {"loop": True} if arguments.loop else {}
-    motions = runtime(arguments).generate(
-        **asked, n=arguments.n, foot_lock=not arguments.no_foot_lock, in_place=arguments.in_place, **options
-    )
+    with working("generating"):
+        motions = runtime(arguments).generate(
+            **asked, n=arguments.n, foot_lock=not arguments.no_foot_lock, in_place=arguments.in_place, **options
+        )
     written = [(motion, motion.save(path)) for motion, path in zip(motions, paths, strict=True)]
     tell_seed(arguments, options["seed"])
     if options["candidates"] > 1:
@@ -89,18 +89,17 @@ def _tell(
 
 
 def _plan(arguments: argparse.Namespace) -> Plan | None:
-    from motionrt.errors import InvalidInputError
     from motionrt.synthesis.plan import Plan
 
     if arguments.plan is None:
         if arguments.text is None:
-            raise InvalidInputError("give a TEXT, as in 'wave the right hand', or --plan FILE")
+            raise WrongUsageError("give a TEXT, as in 'wave the right hand', or --plan FILE")
         return None
     plan = Plan.read(arguments.plan)
     if plan.timeline and arguments.text is not None:
-        raise InvalidInputError(f"{arguments.plan} has its own texts; leave TEXT away")
+        raise WrongUsageError(f"{arguments.plan} has its own texts; leave TEXT away")
     if not plan.timeline and arguments.text is None:
-        raise InvalidInputError(f"{arguments.plan} has no timeline; give a TEXT beside it")
+        raise WrongUsageError(f"{arguments.plan} has no timeline; give a TEXT beside it")
     return plan
 
 

@@ -11,6 +11,7 @@ from motionrt.cli.console import print_json, print_table, say
 
 if TYPE_CHECKING:
     from motionrt.retrieval import Filter, Gallery, Hit
+    from motionrt.retrieval.saving import Saved
 
 _CAPTION = 60  # letters of a caption in a table
 
@@ -18,7 +19,10 @@ _CAPTION = 60  # letters of a caption in a table
 def add_output(parser: argparse.ArgumentParser) -> None:
     """Options for what to do with hits."""
     parser.add_argument(
-        "--save", type=Path, metavar="DIR", help="write the hits there: the original rig, cut to the hit"
+        *("-o", "--save"),
+        type=Path,
+        metavar="DIR",
+        help="write the hits there: the original rig, cut to the hit",
     )
     parser.add_argument(
         "--pictures", type=Path, metavar="FILE", help="draw the hits, one strip each (.png; extra render)"
@@ -88,10 +92,14 @@ def _print(hits: Sequence[Hit]) -> None:
 def _save(hits: Sequence[Hit], gallery: Gallery, folder: Path) -> None:
     from motionrt.retrieval.saving import save_hits
 
-    saved = save_hits(gallery, hits, folder)
+    tell_saved(save_hits(gallery, hits, folder), folder)
+
+
+def tell_saved(saved: Sequence[Saved], folder: Path) -> None:
+    """Name the files that were written."""
     for file in saved:
         say(f"{file.path}: {file.what}")
-    say(f"saved {len(saved)} motions in {folder}")
+    say(f"saved {len(saved)} {'motion' if len(saved) == 1 else 'motions'} in {folder}")
 
 
 def _draw(hits: Sequence[Hit], gallery: Gallery, path: Path) -> None:

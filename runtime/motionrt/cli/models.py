@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from motionrt.models import FileReport, Manifest, Model, Variant
 
 BAD_FILES = 1
-LIST = """list the models and their variants"""
+LIST = """list the models and their variants, those that come with motionrt first"""
 SHOW = """everything that the manifest says of a model
 Inputs and outputs with units, statistics, exactness promised and found, licence, data, recipe, quality, speed."""
 VERIFY = """check every model file against its sha256
@@ -41,8 +41,10 @@ def run_list(arguments: argparse.Namespace) -> int:
     header = ["model", "variant", "MB", "licence", "file"]
     rows = [
         [model.name, _label(model, variant), f"{variant.bytes / 1e6:.1f}", model.licence, variant.file]
+        for shipped in (True, False)
         for model in manifest.models.values()
         for variant in model.variants.values()
+        if variant.shipped is shipped
     ]
     print_table(header, rows, "<<><<")
     return 0

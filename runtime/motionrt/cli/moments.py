@@ -7,7 +7,8 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from motionrt.cli.console import print_json, print_table
+from motionrt.cli.console import print_json, print_table, working
+from motionrt.cli.hits import tell_saved
 from motionrt.cli.options import add_json, add_models, add_text_tower, command, runtime
 from motionrt.cli.plot import curve_lines
 from motionrt.cli.reading import INPUTS, add_reading, read_motion
@@ -29,6 +30,13 @@ def add(commands: Any) -> None:
         metavar="FRAMES",
         help="lengths of the windows at 20 fps (default: 10,20,30,40,50,60)",
     )
+    parser.add_argument("--min-score", type=float, metavar="S", help="only moments that fit at least so well, -1 to 1")
+    parser.add_argument(
+        *("-o", "--save"),
+        type=Path,
+        metavar="DIR",
+        help="write the moments there: the original rig, cut to the moment",
+    )
     parser.add_argument("--plot", action="store_true", help="draw the similarity over time")
     add_reading(parser)
     add_json(parser)
@@ -40,7 +48,10 @@ def run(arguments: argparse.Namespace) -> int:
     """Print the moments, and the curve when asked for."""
     motion = read_motion(arguments, arguments.clip)
     lengths = {"lengths": arguments.windows} if arguments.windows else {}
-    found = runtime(arguments).moments(arguments.text, motion, arguments.k, **lengths)
+    with working("searching"):
+        found = runtime(arguments).moments(
+            arguments.text, motion, arguments.k, min_score=arguments.min_score, **lengths
+        )
     if arguments.json:
         print_json(
             [
@@ -61,6 +72,10 @@ def run(arguments: argparse.Namespace) -> int:
         best = [(m.start_s, m.end_s) for m in found.best]
         for line in curve_lines(found.curve.tolist(), found.fps, best[:1], stream.encoding):
             print(line, file=stream)
+    if arguments.save is not None:
+        from motionrt.retrieval.saving import save_moments
+
+        tell_saved(save_moments(arguments.clip, motion, found.best, arguments.save), arguments.save)
     return 0
 
 

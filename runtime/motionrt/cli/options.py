@@ -20,6 +20,9 @@ def command(commands: Any, name: str, run: Callable[[argparse.Namespace], int], 
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.set_defaults(run=run)
+    loudness = parser.add_mutually_exclusive_group()
+    loudness.add_argument("-q", "--quiet", action="store_true", help="no notes, warnings or progress; errors stay")
+    loudness.add_argument("-v", "--verbose", action="store_true", help="say how long it took, and where errors are")
     return parser
 
 
@@ -43,6 +46,11 @@ def add_text_tower(parser: argparse.ArgumentParser) -> None:
         choices=("small", "full"),
         help="what embeds the text: small is fast, full is what it was distilled from (default: small if there is one)",
     )
+
+
+def add_output(parser: argparse.ArgumentParser, text: str = "file to write (.bvh, .glb, .npz)") -> None:
+    """``-o``, where there is a file to write."""
+    parser.add_argument("-o", "--output", type=Path, required=True, metavar="OUT", help=text)
 
 
 def add_mapping(parser: argparse._ActionsContainer) -> None:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from motionrt.cli.console import print_json, print_table
 from motionrt.cli.options import add_json, command
+from motionrt.cli.parsing import WrongUsageError
 
 if TYPE_CHECKING:
     from motionrt.synthesis.parts import Endpoint, Reason
@@ -56,7 +57,7 @@ def _endpoint(arguments: argparse.Namespace) -> Endpoint | None:
     if arguments.endpoint is None and arguments.llm is None:
         return None
     if arguments.endpoint is None or arguments.llm is None:
-        raise InvalidInputError("a language model needs both --endpoint URL and --llm NAME")
+        raise WrongUsageError("a language model needs both --endpoint URL and --llm NAME")
     key = None if arguments.key_variable is None else os.environ.get(arguments.key_variable)
     if arguments.key_variable is not None and not key:
         raise InvalidInputError(f"the environment variable {arguments.key_variable} is not set")

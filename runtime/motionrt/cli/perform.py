@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from motionrt.cli.console import Progress, print_json, print_table
 from motionrt.cli.measures import print_measures, rounded
-from motionrt.cli.options import add_json, add_models, command, runtime
+from motionrt.cli.options import add_json, add_models, add_output, command, runtime
 
 if TYPE_CHECKING:
     from motionrt.locomotion import Performance, Segment
@@ -21,9 +21,7 @@ def add(commands: Any) -> None:
     """Add the command."""
     parser = command(commands, "perform", run, HELP)
     parser.add_argument("script", type=Path, metavar="SCRIPT", help="the script (.yaml)")
-    parser.add_argument(
-        "-o", "--output", type=Path, required=True, metavar="OUT", help="file to write (.bvh, .glb, .npz)"
-    )
+    add_output(parser)
     add_json(parser)
     add_models(parser)
 

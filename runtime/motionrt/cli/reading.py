@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from motionrt.cli.console import say
+from motionrt.cli.console import say, working
 from motionrt.cli.options import add_mapping, read_mapping
 
 if TYPE_CHECKING:
@@ -66,7 +66,8 @@ def read_motion(arguments: argparse.Namespace, path: str | Path) -> Motion:
     """The motion in a file, as the options say."""
     from motionrt.formats import load_motion
 
-    return load_motion(path, **reading(arguments))
+    with working(f"reading {Path(path).name}"):
+        return load_motion(path, **reading(arguments))
 
 
 def in_options(message: str) -> str:

@@ -7,8 +7,8 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from motionrt.cli.console import Progress, print_json
-from motionrt.cli.options import add_json, add_models, command, runtime
+from motionrt.cli.console import Progress, print_json, working
+from motionrt.cli.options import add_json, add_models, add_output, command, runtime
 from motionrt.cli.reading import add_reading, read_motion
 
 if TYPE_CHECKING:
@@ -28,9 +28,7 @@ def add(commands: Any) -> None:
     """Add the command."""
     parser = command(commands, "render", run, HELP)
     parser.add_argument("inputs", nargs="+", metavar="IN", help="motion files, or scripts (.yaml) to perform")
-    parser.add_argument(
-        "-o", "--output", type=Path, required=True, metavar="OUT", help="file to write (.png, .jpg, .webp, .gif, .mp4)"
-    )
+    add_output(parser, "file to write (.png, .jpg, .webp, .gif, .mp4)")
     parser.add_argument("--captions", nargs="+", metavar="TEXT", help="a line for each (default: names of the files)")
     _add_camera(parser)
     _add_sheet(parser)
@@ -84,7 +82,8 @@ def run(arguments: argparse.Namespace) -> int:
     given, names = [_given(arguments, name) for name in arguments.inputs], arguments.captions
     if names is None:
         names = [Path(name).stem for name in arguments.inputs] if len(given) > 1 else None
-    path = render_as(given, arguments.output, look, names)
+    with working("drawing"):
+        path = render_as(given, arguments.output, look, names)
     size = path.stat().st_size
     if arguments.json:
         print_json({"path": str(path), "bytes": size})

@@ -6,8 +6,8 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from motionrt.cli.console import print_json
-from motionrt.cli.options import add_json, command, read_mapping
+from motionrt.cli.console import print_json, working
+from motionrt.cli.options import add_json, add_output, command, read_mapping
 from motionrt.cli.reading import INPUTS, add_reading, read_motion, spare_inputs
 
 HELP = """put a motion on your own character (.glb, .bvh)
@@ -21,7 +21,7 @@ def add(commands: Any) -> None:
     parser = command(commands, "retarget", run, HELP)
     parser.add_argument("clip", type=Path, metavar="CLIP", help=f"the motion ({INPUTS})")
     parser.add_argument("--to", type=Path, required=True, metavar="RIG", help="the character (.glb, .bvh)")
-    parser.add_argument("-o", "--output", type=Path, required=True, metavar="OUT", help="file to write (.glb, .bvh)")
+    add_output(parser, "file to write (.glb, .bvh)")
     parser.add_argument(
         "--root-motion",
         nargs="?",
@@ -52,7 +52,8 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.fps is not None:
         motion = motion.resample(arguments.fps)
     try:
-        moved = motion.retarget_to(rig, mapping=rig_mapping, root_motion=arguments.root_motion)
+        with working("retargeting"):
+            moved = motion.retarget_to(rig, mapping=rig_mapping, root_motion=arguments.root_motion)
     except RigError as error:
         raise RigError(str(error).replace("mapping=", "rig_mapping=")) from error
     spare_inputs(arguments.output, arguments.clip, arguments.to)

@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from motionrt.cli.console import say
+from motionrt.cli.console import say, working
 from motionrt.cli.hits import add_filters, add_output, read_filter, show
 from motionrt.cli.options import add_json, add_models, add_text_tower, command, runtime
 
@@ -39,16 +39,17 @@ def run(arguments: argparse.Namespace) -> int:
 
     opened = runtime(arguments)
     gallery = opened.gallery(arguments.gallery)
-    hits = opened.retrieve(
-        arguments.text,
-        arguments.k,
-        gallery,
-        per_clip=not arguments.windows,
-        approximate=arguments.approximate,
-        weights=EMBEDDING_ONLY if arguments.embedding_only else None,
-        filter=read_filter(arguments),
-        anyway=arguments.anyway,
-    )
+    with working("searching"):
+        hits = opened.retrieve(
+            arguments.text,
+            arguments.k,
+            gallery,
+            per_clip=not arguments.windows,
+            approximate=arguments.approximate,
+            weights=EMBEDDING_ONLY if arguments.embedding_only else None,
+            filter=read_filter(arguments),
+            anyway=arguments.anyway,
+        )
     show(hits, gallery, arguments)
     if hits.notice:
         say(f"motionrt: {hits.notice}")

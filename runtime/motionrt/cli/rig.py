@@ -7,7 +7,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from motionrt.cli.console import print_json, print_table
+from motionrt.cli.console import print_json, print_table, working
 from motionrt.cli.options import add_json, add_mapping, command, read_mapping
 
 if TYPE_CHECKING:
@@ -55,7 +55,8 @@ def run_certify(arguments: argparse.Namespace) -> int:
     from motionrt.rigs.certify import certify
 
     rig = load_target(arguments.rig, skin=arguments.skin)
-    result = certify(rig, mapping=read_mapping(arguments.mapping))
+    with working("certifying"):
+        result = certify(rig, mapping=read_mapping(arguments.mapping))
     if arguments.json:
         print_json(facts(result))
     else:

@@ -6,6 +6,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
+from motionrt.cli.console import working
 from motionrt.cli.hits import add_output, show
 from motionrt.cli.options import add_json, add_models, command, runtime
 
@@ -28,5 +29,7 @@ def run(arguments: argparse.Namespace) -> int:
     """Print the hits, save and draw them when asked to."""
     opened = runtime(arguments)
     gallery = opened.gallery(arguments.gallery)
-    show(opened.similar(arguments.motion, arguments.k, gallery), gallery, arguments)
+    with working("searching"):
+        hits = opened.similar(arguments.motion, arguments.k, gallery)
+    show(hits, gallery, arguments)
     return 0

@@ -9,13 +9,14 @@ from typing import TYPE_CHECKING, Any
 
 from motionrt.cli.console import Progress, print_json, say
 from motionrt.cli.measures import print_measures, rounded
-from motionrt.cli.options import add_json, add_models, command, runtime
+from motionrt.cli.options import add_json, add_models, add_output, command, runtime
+from motionrt.cli.parsing import WrongUsageError
 
 if TYPE_CHECKING:
     from motionrt.locomotion import Scene, Walk
 
 HELP = """walk to a place, round what stands in the way, or along a path
-Places are x and z in metres on the ground plane. The character stands at both ends.
+Places are x and z in metres on the ground plane, --to 3 -2 or --to 3,-2. The character stands at both ends.
 Measures go to stdout: how far it was off the path and off the goal, foot skate, drift."""
 
 
@@ -25,9 +26,7 @@ def add(commands: Any) -> None:
     where = parser.add_mutually_exclusive_group(required=True)
     where.add_argument("--to", type=float, nargs=2, metavar=("X", "Z"), help="the place to walk to")
     where.add_argument("--path", type=Path, metavar="CSV", help="a file of two columns, x and z, to walk along")
-    parser.add_argument(
-        "-o", "--output", type=Path, required=True, metavar="OUT", help="file to write (.bvh, .glb, .npz)"
-    )
+    add_output(parser)
     parser.add_argument("--scene", type=Path, metavar="FILE", help="mesh (.obj, .ply, .glb) or map (.yaml, .pgm, .png)")
     parser.add_argument("--resolution", type=float, metavar="M", help="metres per pixel of a map without YAML")
     parser.add_argument("--from", dest="start", type=float, nargs=2, metavar=("X", "Z"), help="start (default: 0 0)")
@@ -74,11 +73,9 @@ def as_json(walk: Walk, path: Path) -> dict[str, object]:
 
 
 def _scene(arguments: argparse.Namespace) -> Scene | None:
-    from motionrt.errors import InvalidInputError
-
     if arguments.scene is None:
         if arguments.resolution is not None:
-            raise InvalidInputError("--resolution is for a --scene that is a map without YAML")
+            raise WrongUsageError("--resolution is for a --scene that is a map without YAML")
         return None
     from motionrt.locomotion import Scene
 

@@ -77,7 +77,7 @@ class PerformanceMeasures:
         return {k: v for k, v in self.motion.as_dict().items() if not k.startswith(along)} | own
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Performance:
     """What a character did.
 
@@ -92,6 +92,16 @@ class Performance:
     segments: tuple[Segment, ...]
     paths: tuple[Path, ...]
     ground: Heights
+
+    def __repr__(self) -> str:
+        return f"Performance({len(self.segments)} segments, {self.motion.duration:.2f} s)"
+
+    def _repr_html_(self) -> str:
+        """Measures and a strip of poses, for notebooks."""
+        from motionrt.metrics.labelled import HEADER, labelled
+        from motionrt.motion.notebook import page, strip, table
+
+        return page(repr(self), strip(self.motion), table(HEADER, labelled(self.measures.as_dict())))
 
     @cached_property
     def measures(self) -> PerformanceMeasures:

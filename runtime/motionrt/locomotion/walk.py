@@ -26,7 +26,7 @@ from motionrt.untrusted.arguments import check_flags, check_functions, checked_w
 _NAME = "walk"
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Walk:
     """A walk along a path.
 
@@ -43,6 +43,16 @@ class Walk:
     waypoints: Waypoints
     radius: float
     ground: Heights
+
+    def __repr__(self) -> str:
+        return f"Walk({self.path.length:.2f} m in {self.motion.duration:.2f} s, {len(self.waypoints)} waypoints)"
+
+    def _repr_html_(self) -> str:
+        """Measures and a strip of poses, for notebooks."""
+        from motionrt.metrics.labelled import HEADER, labelled
+        from motionrt.motion.notebook import page, strip, table
+
+        return page(repr(self), strip(self.motion), table(HEADER, labelled(self.measures.as_dict())))
 
     @cached_property
     def measures(self) -> LocomotionMeasures:

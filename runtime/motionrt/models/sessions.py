@@ -55,6 +55,11 @@ class Sessions:
         self._locks: defaultdict[tuple[str, str], threading.Lock] = defaultdict(threading.Lock)
         self._lock = threading.Lock()
 
+    @property
+    def opened(self) -> list[str]:
+        """Names of the models that are open."""
+        return sorted({name for name, _ in self._opened})
+
     def model(self, name: str) -> Model:
         """What the manifest says of a model."""
         return self.manifest.model(name)

@@ -12,7 +12,7 @@ from motionrt.untrusted.words import shown
 PARTS = ("left arm", "right arm", "left leg", "right leg", "torso", "global")
 """The six body parts of SINC; ``global`` is the orientation and translation of the whole body."""
 
-ARMS, LEGS = PARTS[:2], PARTS[2:4]
+ARMS, LEGS, (TORSO, GLOBAL) = PARTS[:2], PARTS[2:4], PARTS[4:]
 
 
 def _joints(*names: str) -> tuple[int, ...]:

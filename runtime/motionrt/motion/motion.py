@@ -31,6 +31,12 @@ class Motion(Frames):
             or a frame rate out of range (:mod:`motionrt.limits`).
     """
 
+    def _repr_html_(self) -> str:
+        """A strip of poses, for notebooks."""
+        from motionrt.motion.notebook import page, strip
+
+        return page(repr(self), strip(self))
+
     def resample(self, fps: float) -> Motion:
         """The same motion at another frame rate: rotations by slerp, root linearly; the first frame stays the first."""
         return transforms.resample(self, fps)

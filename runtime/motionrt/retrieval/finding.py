@@ -32,14 +32,28 @@ class Hits(list[Hit]):
     Attributes:
         notice: in words, where the search could not do what was asked, else None.
         unknown_words: words of the text that neither motionrt nor the library knows.
+        gallery: where they were found, which has their motions; None where nothing was.
     """
 
     def __init__(
-        self, hits: Iterable[Hit] = (), notice: str | None = None, unknown_words: tuple[str, ...] = ()
+        self,
+        hits: Iterable[Hit] = (),
+        notice: str | None = None,
+        unknown_words: tuple[str, ...] = (),
+        gallery: Gallery | None = None,
     ) -> None:
         super().__init__(hits)
         self.notice = notice
         self.unknown_words = unknown_words
+        self.gallery = gallery
+
+    def _repr_html_(self) -> str:
+        """A table with strips of the first hits, for notebooks."""
+        from motionrt.motion.notebook import PICTURED, page, table
+
+        rows = [[f"{h.rank}", f"{h.score:.3f}", f"{h.start_s:.1f}-{h.end_s:.1f} s", h.id, h.text or ""] for h in self]
+        drawn = [] if self.gallery is None else [self.gallery.sketch(hit) for hit in self[:PICTURED]]
+        return page(self.notice or "", table(("rank", "score", "span", "clip", "text"), rows), *drawn)
 
 
 def grouped(hits: Iterable[Hit]) -> list[list[Hit]]:
@@ -103,10 +117,11 @@ def find(gallery: Gallery, text: str, query: FloatArray, search: Search) -> Hits
     if search.per_clip:
         _, first = np.unique(gallery.windows["clip"][rows[order]], return_index=True)
         order = order[np.sort(first)]
-    return Hits(
+    hits = [
         gallery.hit(rank, int(rows[i]), float(total[i]), float(cosines[i]), None if fits is None else float(fits[i]))
         for rank, i in enumerate(order[:k].tolist(), 1)
-    )
+    ]
+    return Hits(hits, gallery=gallery)
 
 
 def _candidates(

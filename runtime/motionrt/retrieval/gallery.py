@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from functools import cached_property
+from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -185,6 +186,25 @@ class Gallery(Contents):
         check_flags(approximate=approximate)
         (self._approximate if approximate else self._exact).prepare()
         return self
+
+    def _repr_html_(self) -> str:
+        """The first clips as a table with pictures, for notebooks."""
+        from motionrt.motion.notebook import PICTURED, page, table
+
+        first = list(islice(self.clips, PICTURED))
+        rows = [[clip.id, f"{clip.duration_s:.1f} s"] for clip in first]
+        return page(repr(self), table(("clip", "length"), rows), *(self.sketch(clip.id) for clip in first))
+
+    def sketch(self, hit: Hit | str) -> str:
+        """SVG strip of a hit or of a whole clip, under its name; only the name where the file cannot be read."""
+        from motionrt.errors import MotionRTError
+        from motionrt.motion.notebook import page, strip
+
+        name = hit if isinstance(hit, str) else hit.id
+        try:
+            return page(name, strip(self.motion(hit)))
+        except MotionRTError as error:
+            return page(f"{name}: {error}")
 
     def path(self, clip: Clip) -> Path | None:
         """The clip's file, ``None`` when it has none."""

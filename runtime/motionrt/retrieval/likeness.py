@@ -40,7 +40,7 @@ def similar(gallery: Gallery, query: FloatArray, k: int = 10, *, without: str | 
     """The clips most like an embedded motion ``(256,)``; ``without`` leaves out the clip of that id."""
     k = checked_k(k)
     hits = [hit for hit in gallery.search(query, k + 1) if hit.id != without][:k]
-    return Hits(replace(hit, rank=rank) for rank, hit in enumerate(hits, 1))
+    return Hits((replace(hit, rank=rank) for rank, hit in enumerate(hits, 1)), gallery=gallery)
 
 
 def duplicates(gallery: Gallery, cosine: float = 0.985) -> list[Duplicates]:

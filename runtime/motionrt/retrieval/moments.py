@@ -13,7 +13,7 @@ from motionrt.metrics import temporal_iou
 from motionrt.motion.skeleton import FloatArray
 from motionrt.retrieval.search import checked_k
 from motionrt.retrieval.windows import FPS, MotionEmbedder, span_features
-from motionrt.untrusted.arguments import checked_whole, listed
+from motionrt.untrusted.arguments import checked_number, checked_whole, listed
 
 WINDOW_LENGTHS = (10, 20, 30, 40, 50, 60)
 STRIDE = 5
@@ -61,6 +61,7 @@ def find_moments(
     lengths: Sequence[int] = WINDOW_LENGTHS,
     stride: int = STRIDE,
     max_overlap: float = MAX_OVERLAP,
+    min_score: float | None = None,
 ) -> Moments:
     """Slide windows of several lengths over a motion and keep the best that do not repeat each other.
 
@@ -72,14 +73,21 @@ def find_moments(
         lengths: window lengths in frames.
         stride: frames from window to window.
         max_overlap: temporal IoU with a better span from which on a span is dropped.
+        min_score: only spans whose cosine with the text is at least this, -1 to 1; None takes all.
+
+    Raises:
+        InvalidInputError: a number out of its range.
     """
     k = checked_k(k)
+    if min_score is not None:
+        min_score = checked_number(min_score, "min_score", -1.0, 1.0)
     spans = pyramid(len(features), lengths, stride)
     scores = embedder.embed_motion(span_features(features, spans.tolist())) @ text_embedding
     kept = non_maximum_suppression(spans, scores, max_overlap)[:k]
     best = [
         Moment(rank, float(scores[i]), float(spans[i, 0] / FPS), float(spans[i, 1] / FPS))
         for rank, i in enumerate(kept, start=1)
+        if min_score is None or scores[i] >= min_score
     ]
     return Moments(best, similarity_curve(spans, scores, len(features)))
 

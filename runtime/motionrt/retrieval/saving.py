@@ -1,4 +1,4 @@
-"""Hits as files: the original rig, cut to the span that was found."""
+"""Hits and moments as files: the original rig, cut to the span that was found."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ from motionrt.untrusted.files import as_path
 
 if TYPE_CHECKING:
     from motionrt.retrieval.gallery import Gallery
+    from motionrt.retrieval.moments import Moment
     from motionrt.retrieval.search import Hit
 
 _SUFFIX = re.compile(r"\.(bvh|amc|npz|glb|gltf)$", re.IGNORECASE)
@@ -36,42 +37,77 @@ def save_hits(gallery: Gallery, hits: Sequence[Hit], folder: str | Path) -> list
         InvalidInputError: the folder cannot be made.
         MotionFileNotFoundError, FormatError: a clip's file is gone, or broken now.
     """
+    out = _made(folder)
+    return [_saved(gallery.motion(hit.id), hit.path, _Span.of(hit, hit.id), out) for hit in hits]
+
+
+def save_moments(source: str | Path, motion: Motion, moments: Sequence[Moment], folder: str | Path) -> list[Saved]:
+    """Write every moment of a motion into a folder, as :func:`save_hits` writes hits.
+
+    Args:
+        source: the file that ``motion`` was read from.
+        motion: all of it.
+        moments: what is to be written.
+        folder: where; it is made if there is none.
+
+    Raises:
+        InvalidInputError: the folder cannot be made.
+        MotionFileNotFoundError, FormatError: the file is gone, or broken now.
+    """
+    out, source = _made(folder), as_path(source)
+    return [_saved(motion, source, _Span.of(moment, source.name), out) for moment in moments]
+
+
+@dataclass(frozen=True)
+class _Span:
+    """A part of a clip, seconds."""
+
+    rank: int
+    clip: str
+    start: float
+    end: float
+
+    @staticmethod
+    def of(found: Hit | Moment, clip: str) -> _Span:
+        return _Span(found.rank, clip, found.start_s, found.end_s)
+
+    @property
+    def file_name(self) -> str:
+        """Rank, clip and span, in letters that every file system takes."""
+        stem = _SUFFIX.sub("", self.clip)
+        plain = re.sub(r"[^\w.-]+", "_", stem.replace("/", "__")).encode()[:150].decode(errors="ignore")
+        return f"{self.rank:03d}_{plain}_{self.start:.1f}-{self.end:.1f}s"
+
+
+def _made(folder: str | Path) -> Path:
     out = as_path(folder)
     try:
         out.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise InvalidInputError(f"cannot make the folder {out}: {error.strerror}") from error
-    return [_saved(gallery, hit, out) for hit in hits]
+    return out
 
 
-def _saved(gallery: Gallery, hit: Hit, folder: Path) -> Saved:
+def _saved(whole: Motion, source: Path | None, span: _Span, folder: Path) -> Saved:
     from motionrt.formats.cutting import can_cut, cut_file
 
-    whole = gallery.motion(hit.id)
-    source, name = hit.path, _file_name(hit)
+    name = span.file_name
     if source is None:
-        return _plain(whole, hit, folder / f"{name}.bvh", "smpl24")
+        return _plain(whole, span, folder / f"{name}.bvh", "smpl24")
     if can_cut(source):
-        first = min(round(hit.start_s * whole.fps), whole.frames - 1)
-        stop = min(max(round(hit.end_s * whole.fps), first + 1), whole.frames)
+        first = min(round(span.start * whole.fps), whole.frames - 1)
+        stop = min(max(round(span.end * whole.fps), first + 1), whole.frames)
         path = cut_file(
             source, folder / f"{name}{source.suffix.lower()}", first, stop, frames=whole.frames, fps=whole.fps
         )
-        return Saved(path, f"frames {first} to {stop - 1} of {hit.id}, as they are")
+        return Saved(path, f"frames {first} to {stop - 1} of {span.clip}, as they are")
     try:
-        path = whole.between(hit.start_s, hit.end_s).retarget_to(source).save(folder / f"{name}.glb")
+        path = whole.between(span.start, span.end).retarget_to(source).save(folder / f"{name}.glb")
     except MotionRTError:
-        return _plain(whole, hit, folder / f"{name}.bvh", "smpl24: its own character cannot be written")
-    return Saved(path, f"{hit.start_s:.1f} to {hit.end_s:.1f} s of {hit.id}, on its own character")
+        return _plain(whole, span, folder / f"{name}.bvh", "smpl24: its own character cannot be written")
+    return Saved(path, f"{span.start:.1f} to {span.end:.1f} s of {span.clip}, on its own character")
 
 
-def _plain(whole: Motion, hit: Hit, path: Path, skeleton: str) -> Saved:
-    whole.between(hit.start_s, hit.end_s).save(path)
-    return Saved(path, f"{hit.start_s:.1f} to {hit.end_s:.1f} s of {hit.id}, on the skeleton {skeleton}")
-
-
-def _file_name(hit: Hit) -> str:
-    """Rank, clip and span, in letters that every file system takes."""
-    stem = _SUFFIX.sub("", hit.id)
-    plain = re.sub(r"[^\w.-]+", "_", stem.replace("/", "__")).encode()[:150].decode(errors="ignore")
-    return f"{hit.rank:03d}_{plain}_{hit.start_s:.1f}-{hit.end_s:.1f}s"
+def _plain(whole: Motion, span: _Span, path: Path, skeleton: str) -> Saved:
+    whole.between(span.start, span.end).save(path)
+    return Saved(path, f"{span.start:.1f} to {span.end:.1f} s of {span.clip}, on the skeleton {skeleton}")

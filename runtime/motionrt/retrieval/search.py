@@ -25,7 +25,7 @@ CODED_FROM = 4_000  # below, the float32 scan is as fast
 CODED_LATE_FROM = 20_000  # from here the copy takes more than 20 ms
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Hit:
     """One answer to a query.
 
@@ -50,6 +50,10 @@ class Hit:
     text: str | None = None
     cosine: float | None = None
     agreement: float | None = None
+
+    def __repr__(self) -> str:
+        text = f", {self.text!r}" if self.text else ""
+        return f"Hit({self.rank}, {self.score:.3f}, {self.id!r}, {self.start_s:.1f}-{self.end_s:.1f} s{text})"
 
 
 class VectorIndex(Protocol):

@@ -187,15 +187,24 @@ class Search(Service):
             return ready
         return EmbeddedCaptions(texts, self.model.embed_text(texts), self.model.fingerprint)
 
-    def moments(self, text: str, motion: MotionLike, k: int = 5, *, lengths: Sequence[int] | None = None) -> Moments:
+    def moments(
+        self,
+        text: str,
+        motion: MotionLike,
+        k: int = 5,
+        *,
+        lengths: Sequence[int] | None = None,
+        min_score: float | None = None,
+    ) -> Moments:
         """Where in a motion a text happens: the best spans, and the similarity over time.
 
         ``lengths`` are those of the sliding windows, in frames at 20 fps; by default 10 to 60 (0.5 to 3 s).
+        ``min_score``: only spans whose cosine with the text is at least this.
         """
         from motionrt.retrieval import WINDOW_LENGTHS, find_moments, motion_features
 
         query, chosen = self.embed_text(checked_text(text)), WINDOW_LENGTHS if lengths is None else lengths
-        return find_moments(query, motion_features(_loaded(motion)), self.model, k, lengths=chosen)
+        return find_moments(query, motion_features(_loaded(motion)), self.model, k, lengths=chosen, min_score=min_score)
 
     def embed_text(self, text: str | Sequence[str]) -> FloatArray:
         """Unit vector ``(256,)`` of a text, or ``(N, 256)`` of a list."""

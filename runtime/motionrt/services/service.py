@@ -58,6 +58,11 @@ class Service:
         self._providers = checked_providers(providers)
         self._text_tower = text_tower
 
+    def __repr__(self) -> str:
+        what = f"models={str(self._models)!r}" if self._models is not None else "the models that come with motionrt"
+        opened = self.sessions.opened if "sessions" in vars(self) else []
+        return f"{type(self).__name__}({what}; open: {', '.join(opened) or 'none yet'})"
+
     @cached_property
     def sessions(self) -> Sessions:
         """All models of the manifest; each opens when it is first run."""

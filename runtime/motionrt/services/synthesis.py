@@ -315,8 +315,9 @@ class Synthesis(Service):
             given: two or more motions, motion files, texts, or :class:`~motionrt.synthesis.composing.Layer` s. A
                 ``str`` is a file if there is one, or if it is named like one (``wave.bvh``); otherwise a text.
             parts: for each the body parts that its action needs, as in ``[None, "right arm"]``. Those left open are
-                found: of texts by the labeller, of motions by how fast they move; a first motion that alone is left
-                open moves all that the others leave.
+                found: of texts by the labeller, of motions by how fast they move, without legs and "global", or
+                arms and torso where nothing else is left; a first motion that is left open moves all that the others
+                leave.
             masks: for each exactly the joints that it moves, names of parts or joints, instead of ``parts``.
             seconds: length; None is that of the shortest motion, or 4 s where all are texts. Longer ones are cut,
                 shorter ones looped.

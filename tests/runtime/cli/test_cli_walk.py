@@ -84,7 +84,6 @@ def test_a_scene_is_planned_through(run_json: RunJson, room: Path, tmp_path: Pat
     [
         (["--to", "0", "0"], "already: nothing to walk"),
         (["--to", "1", "5", "--speed", "60"], "speed must lie between"),
-        (["--to", "1", "5", "--resolution", "1"], "--resolution is for"),
         (["--to", "1", "5", "--scene", "none.obj"], "none.obj"),
         (["--path", "none.csv"], "none.csv"),
     ],

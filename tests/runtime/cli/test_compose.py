@@ -125,12 +125,13 @@ def test_a_seed_is_told_where_chance_has_a_part(
         (["BODY", ""], "the text is empty"),
     ],
 )
-def test_an_error_is_one_line_and_exit_code_one(
+def test_an_error_is_one_line_and_tells_by_its_exit_code(
     arguments: list[str], message: str, body: Path, other: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     files = {"BODY": str(body), "OTHER": str(other)}
     given = [files.get(argument, argument) for argument in arguments]
-    assert main(["compose", *given, "-o", str(tmp_path / "out.bvh"), *map(str, MODELS)]) == 1
+    code = 2 if "that is not there" in message else 1
+    assert main(["compose", *given, "-o", str(tmp_path / "out.bvh"), *map(str, MODELS)]) == code
     out, err = capsys.readouterr()
     assert out == ""
     assert message in err
@@ -188,7 +189,7 @@ def test_a_language_model_may_be_asked(run_json: RunJson, monkeypatch: pytest.Mo
 def test_a_language_model_that_is_not_all_there_is_refused(
     options: list[str], message: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert main(["parts", "nod", *options]) == 1
+    assert main(["parts", "nod", *options]) == (2 if "both" in message else 1)
     assert message in capsys.readouterr().err
 
 

@@ -114,8 +114,8 @@ def test_an_error_is_one_line_and_exit_code_one(
     assert not list(tmp_path.iterdir())
 
 
-def test_neither_text_nor_plan_is_an_error(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["generate", "-o", str(tmp_path / "x.bvh")]) == 1
+def test_neither_text_nor_plan_is_wrong_usage(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["generate", "-o", str(tmp_path / "x.bvh")]) == 2
     assert "give a TEXT, as in 'wave the right hand', or --plan FILE" in capsys.readouterr().err
     assert not list(tmp_path.iterdir())
 

@@ -29,7 +29,7 @@ def test_version_and_help_go_to_stdout(capsys: pytest.CaptureFixture[str]) -> No
         assert name in out
 
 
-@pytest.mark.parametrize("arguments", [[], ["nonsense"], ["retrieve"], ["gallery"], ["bench", "--threads", "0"]])
+@pytest.mark.parametrize("arguments", [["nonsense"], ["retrieve"], ["gallery"], ["bench", "--threads", "0"]])
 def test_wrong_usage_is_exit_code_two_on_stderr(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> None:
     assert main(arguments) == 2
     out, err = capsys.readouterr()

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from numbers import Real
 
 from motionrt.errors import InvalidInputError
-from motionrt.motion.body_parts import PART_JOINTS, PARTS, checked_parts
+from motionrt.motion.body_parts import ARMS, GLOBAL, LEGS, PART_JOINTS, PARTS, TORSO, checked_parts
 from motionrt.motion.motion import Motion
 from motionrt.motion.skeleton import SMPL24
 from motionrt.untrusted.arguments import iterable
@@ -112,7 +112,9 @@ def _check_motion(motion: object, number: int) -> None:
 def given_parts(layers: Sequence[Layer], derive: Derive | None) -> list[frozenset[str] | None]:
     """The body parts of each layer's action, ``None`` for layers with a mask.
 
-    A first layer without parts has all six if every other layer says what it moves: it moves whatever they leave.
+    A first layer without parts has all six: it moves whatever the others leave. Of parts that are derived for another
+    layer, legs and "global" are left away, so that the first keeps its legs and its way; who moves nothing else gives
+    arms and torso.
 
     Raises:
         InvalidInputError: a layer with neither parts nor a mask, and nothing to derive them with.
@@ -121,16 +123,17 @@ def given_parts(layers: Sequence[Layer], derive: Derive | None) -> list[frozense
     for number, layer in enumerate(layers):
         if not _silent(layer):
             found.append(None if layer.parts is None else checked_parts(layer.parts))
-        elif first_fills(layers):
+        elif number == 0:
             found.append(frozenset(PARTS))
         else:
-            found.append(_derived(layer.motion, number, derive))
+            derived = _derived(layer.motion, number, derive)
+            found.append(derived - {*LEGS, GLOBAL} or frozenset({*ARMS, TORSO}))
     return found
 
 
 def first_fills(layers: Sequence[Layer]) -> bool:
-    """Whether the first layer, and no other, leaves open what it moves: then it moves what the others leave."""
-    return _silent(layers[0]) and not any(_silent(layer) for layer in layers[1:])
+    """Whether the first layer leaves open what it moves: then it moves what the others leave."""
+    return _silent(layers[0])
 
 
 def _silent(layer: Layer) -> bool:

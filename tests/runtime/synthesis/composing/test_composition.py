@@ -118,6 +118,17 @@ def test_parts_are_derived_where_none_are_given() -> None:
     assert same(found, compose([Layer(base, WALK), Layer(arm, ARMS)], seam=0))
 
 
+def test_a_first_motion_keeps_its_legs_and_its_way_unless_told_otherwise() -> None:
+    base, other = random_motion(9, seed=1), random_motion(9, seed=2)
+    found = compose([base, other], seam=0, derive=lambda _: (*WALK, "left arm"))
+    assert same(found, compose([Layer(base, PARTS), Layer(other, "left arm")], seam=0))
+    assert np.array_equal(found.root, base.root)
+    upper = compose([base, other], seam=0, derive=lambda _: WALK)
+    assert same(upper, compose([Layer(base, PARTS), Layer(other, UPPER)], seam=0))
+    told = compose([base, Layer(other, WALK)], seam=0, derive=lambda _: ARMS)
+    assert np.array_equal(told.root, other.root)
+
+
 @pytest.mark.parametrize(("seam", "shares"), [(1, [1 / 2, 1, 1]), (2, [1 / 3, 2 / 3, 1]), (3, [1 / 4, 1 / 2, 3 / 4])])
 def test_the_seam_is_a_slerp_up_the_spine(seam: int, shares: list[float]) -> None:
     below, above = random_motion(5, seed=1), random_motion(5, seed=2)

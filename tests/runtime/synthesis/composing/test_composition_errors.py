@@ -54,7 +54,7 @@ def test_another_skeleton_and_how_to_leave_it() -> None:
 
 
 def test_layers_that_do_not_say_what_they_move() -> None:
-    with pytest.raises(InvalidInputError, match="layer 0 has neither parts nor a mask"):
+    with pytest.raises(InvalidInputError, match="layer 1 has neither parts nor a mask"):
         compose([MOTION, MOTION])
     with pytest.raises(InvalidInputError, match="layer 1 has neither parts nor a mask"):
         compose([Layer(MOTION, "torso"), MOTION])
