@@ -16,7 +16,7 @@ from motionrt import load_motion, load_target
 from motionrt.formats import load_rig
 from motionrt.rigs.plain_kinematics import joint_transforms
 
-pytest.importorskip("ufbx", reason="needs the extra fbx: pip install 'motionrt[fbx]'")
+pytest.importorskip("ufbx", reason='needs the extra fbx: pip install "motionrt[fbx]"')
 pytestmark = pytest.mark.skipif(shutil.which("blender") is None, reason=NO_BLENDER)
 FILES = {"centimetres_y": (1.0, 1), "centimetres_z": (1.0, 2), "metres_y": (100.0, 1), "metres_z": (100.0, 2)}
 

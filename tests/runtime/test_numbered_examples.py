@@ -22,7 +22,7 @@ def test_there_are_examples_and_their_numbers_go_on() -> None:
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
 def test_an_example_runs_and_saves_what_it_says(path: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     if path.stem == "16_picture":
-        pytest.importorskip("PIL", reason="the picture needs Pillow: pip install 'motionrt[render]'")
+        pytest.importorskip("PIL", reason='the picture needs Pillow: pip install "motionrt[render]"')
     spec = importlib.util.spec_from_file_location(f"example_{path.stem}", path)
     assert spec is not None
     assert spec.loader is not None

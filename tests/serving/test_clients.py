@@ -74,6 +74,6 @@ def test_without_the_extra_the_error_says_what_to_install(
 
     monkeypatch.setattr(importlib.util, "find_spec", lambda name: None)
     assert main(["serve"]) == 1
-    assert "pip install 'motionrt[serve]'" in capsys.readouterr().err
+    assert 'pip install "motionrt[serve]"' in capsys.readouterr().err
     assert main(["mcp"]) == 1
-    assert "pip install 'motionrt[mcp]'" in capsys.readouterr().err
+    assert 'pip install "motionrt[mcp]"' in capsys.readouterr().err

@@ -13,7 +13,7 @@ from chromium import Browser, browser, find_chromium
 @pytest.fixture(scope="session")
 def viser() -> None:
     if importlib.util.find_spec("viser") is None:
-        pytest.skip("viser is not installed (pip install motionrt[studio])")
+        pytest.skip('viser is not installed (pip install "motionrt[studio]")')
 
 
 @pytest.fixture(scope="session")

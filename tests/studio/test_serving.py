@@ -53,4 +53,4 @@ def test_without_viser_the_message_says_how_to_get_it(walk_file: Path) -> None:
     command = [sys.executable, "-c", hidden, "view", str(walk_file), "--no-browser", "--port", "0"]
     done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False, env=os.environ)
     assert done.returncode == 1
-    assert "pip install motionrt[studio]" in done.stderr
+    assert 'pip install "motionrt[studio]"' in done.stderr

@@ -4,5 +4,5 @@ from __future__ import annotations
 
 import pytest
 
-torch = pytest.importorskip("torch", reason="torch is not installed: pip install 'motionrt[train]'")
+torch = pytest.importorskip("torch", reason='torch is not installed: pip install "motionrt[train]"')
 torch.set_num_threads(1)

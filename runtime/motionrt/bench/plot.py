@@ -44,7 +44,7 @@ def save_plot(found: Mapping[str, Any], path: str | Path) -> Path:
     try:
         from matplotlib.figure import Figure
     except ImportError as error:
-        raise MissingDependencyError("a plot needs matplotlib: pip install 'motionrt[plot]'") from error
+        raise MissingDependencyError('a plot needs matplotlib: pip install "motionrt[plot]"') from error
     run, names = found["runs"][0], [OURS, *rivals_of(found)]
     sizes = _measured_sizes(run)
     batch = (

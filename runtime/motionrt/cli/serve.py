@@ -95,5 +95,5 @@ def _serving(extra: str, modules: tuple[str, ...]) -> Any:
 
     missing = [name for name in modules if importlib.util.find_spec(name) is None]
     if missing:
-        raise MissingDependencyError(f"{', '.join(missing)} is not installed: pip install 'motionrt[{extra}]'")
+        raise MissingDependencyError(f'{", ".join(missing)} is not installed: pip install "motionrt[{extra}]"')
     return serving

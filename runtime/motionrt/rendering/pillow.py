@@ -18,7 +18,7 @@ def pillow(module: str) -> Any:
     try:
         return import_module(f"PIL.{module}")
     except ImportError as error:
-        raise MissingDependencyError("pictures need the package Pillow: pip install 'motionrt[render]'") from error
+        raise MissingDependencyError('pictures need the package Pillow: pip install "motionrt[render]"') from error
 
 
 def ffmpeg() -> str:

@@ -1,6 +1,6 @@
 """Approximate search for galleries of hundreds of thousands of windows: a graph of neighbours  [HNSW, 8 bit].
 
-It needs the package faiss-cpu (``pip install 'motionrt[ann]'``), finds nearly all of the best (measured: 99 % and
+It needs the package faiss-cpu (``pip install "motionrt[ann]"``), finds nearly all of the best (measured: 99 % and
 more of the ten best), and takes minutes to build for a million vectors: so it is kept beside the gallery.
 """
 
@@ -134,5 +134,5 @@ def _faiss() -> Any:
         return importlib.import_module("faiss")
     except ImportError as error:
         raise MissingDependencyError(
-            "approximate search needs the package faiss-cpu: pip install 'motionrt[ann]'; without it, search exactly"
+            'approximate search needs the package faiss-cpu: pip install "motionrt[ann]"; without it, search exactly'
         ) from error

@@ -159,7 +159,7 @@ def _viser() -> Any:
     try:
         import viser
     except ImportError as error:
-        raise InvalidInputError("the viewer needs the package viser: pip install motionrt[studio]") from error
+        raise InvalidInputError('the viewer needs the package viser: pip install "motionrt[studio]"') from error
     return viser
 
 

@@ -18,7 +18,7 @@ from motionrt.formats import fbx, load_motion, load_rig, load_target
 from motionrt.motion import SMPL24
 
 NAMES = {name: f"mixamorig:{name}" for name in SMPL24.names}
-needs_ufbx = pytest.mark.skipif(find_spec("ufbx") is None, reason="needs ufbx: pip install motionrt[fbx]")
+needs_ufbx = pytest.mark.skipif(find_spec("ufbx") is None, reason='needs ufbx: pip install "motionrt[fbx]"')
 
 
 @needs_ufbx

@@ -115,7 +115,7 @@ MAPS = "ros1 ros2_025 negate negate_true alpha palette deep16 onebit la relative
 def test_all_shades_of_a_map_give_the_same_way_round_the_wall(name: str) -> None:
     from motionrt.locomotion.scene import Scene
 
-    pytest.importorskip("PIL", reason="needs the extra scene: pip install 'motionrt[scene]'")
+    pytest.importorskip("PIL", reason='needs the extra scene: pip install "motionrt[scene]"')
     scene = Scene.from_map(CASES / "24_nav2_maps" / f"{name}.yaml")
     path = scene.plan((2.0, -1.0), (8.0, -1.0))
     assert path.length == pytest.approx(10.3, abs=0.25)

@@ -53,7 +53,7 @@ class OneModel:
 @pytest.fixture(scope="module")
 def tiny(tmp_path_factory: pytest.TempPathFactory) -> TransitionModel:
     """`stays` as an ONNX file with the real names, types and axes."""
-    onnx = pytest.importorskip("onnx", reason="onnx is not installed: pip install 'motionrt[export]'")
+    onnx = pytest.importorskip("onnx", reason='onnx is not installed: pip install "motionrt[export]"')
     make, node, types = onnx.helper.make_tensor_value_info, onnx.helper.make_node, onnx.TensorProto
     constants = {"last": [WINDOW - 1], "end": [WINDOW], "time": [1], "behind": [-1]}
     tensors = [onnx.numpy_helper.from_array(np.array(value, np.int64), name) for name, value in constants.items()]

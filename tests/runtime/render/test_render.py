@@ -141,7 +141,7 @@ def test_without_pillow_there_is_an_error_that_says_what_to_install(walk: Motion
     )
     said = subprocess.run([sys.executable, "-c", code], capture_output=True, check=True, cwd=tmp_path).stdout.decode()
     assert said.startswith("MissingDependencyError")
-    assert "pip install 'motionrt[render]'" in said
+    assert 'pip install "motionrt[render]"' in said
 
 
 def test_marks_paths_and_things_are_drawn(walk: Motion) -> None:

@@ -19,8 +19,8 @@ T = TypeVar("T")
 FILE_LIMIT = 2**31
 
 _INSTALL = (
-    "reading FBX needs the package ufbx: pip install 'motionrt[fbx]' (where there is no wheel for your system, save the"
-    " file as .glb or .bvh, in Blender for example)"
+    'reading FBX needs the package ufbx: pip install "motionrt[fbx]" (where there is no wheel for your system, save'
+    " the file as .glb or .bvh, in Blender for example)"
 )
 
 

@@ -16,7 +16,7 @@ def scene_package(name: str, purpose: str) -> Any:
         return import_module(name)
     except ImportError as error:
         package = {"PIL": "Pillow"}.get(name.split(".", maxsplit=1)[0], name)
-        message = f"{purpose} needs the package {package}: pip install motionrt[scene]"
+        message = f'{purpose} needs the package {package}: pip install "motionrt[scene]"'
         raise SceneError(message) from error
 
 

@@ -108,8 +108,8 @@ class Scene:
         """The floor of a triangle mesh that is connected, by steps and ramps that the agent can take, to ``start``.
 
         Args:
-            source: a file (OBJ, PLY, GLB, ...; needs ``pip install motionrt[scene]``), or vertices ``(V, 3)`` and faces
-                ``(T, 3)``.
+            source: a file (OBJ, PLY, GLB, ...; needs ``pip install "motionrt[scene]"``), or vertices ``(V, 3)`` and
+                faces ``(T, 3)``.
             agent: sizes of the walker.
             cell: edge of the grid's cells, metres.
             start: (x, z) or, where storeys lie above one another, (x, y, z), metres, on the wanted floor. Without it
@@ -136,7 +136,7 @@ class Scene:
         """An occupancy map as in ROS: map x is x, map y is -z (:mod:`motionrt.locomotion.scene.ros_map`).
 
         Args:
-            path: the YAML, or its image (PGM; PNG and others need ``pip install motionrt[scene]``).
+            path: the YAML, or its image (PGM; PNG and others need ``pip install "motionrt[scene]"``).
             agent: sizes of the walker; only radius and comfort matter.
             resolution: metres per pixel, for an image without YAML; its lower left corner is the origin.
             unknown_free: walk on unexplored ground too.
