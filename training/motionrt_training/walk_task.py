@@ -8,14 +8,18 @@ from typing import Any, cast
 import numpy as np
 import torch
 import torch.nn.functional as F
+from numpy.typing import NDArray
 from torch import Tensor
 
 from motionrt_training.networks.kinematics import nearer_so3
 from motionrt_training.networks.legs import feet
-from motionrt_training.networks.walknet import FRAMES, WalkNet, seen_from, to_body
+from motionrt_training.networks.walknet import FRAMES, WalkNet, seen_from, to_body, yawed
 from motionrt_training.options import option
 from motionrt_training.walk_pool import WalkPool
 from motionrt_training.walk_trial import Trial
+
+Ints = NDArray[np.int64]
+Floats = NDArray[np.float32]
 
 FOOT = 0.03  # metres and ...
 STEP = 0.01  # ... metres per frame at which errors of the feet are large
@@ -33,6 +37,12 @@ class WalkSettings:
     width: int = option(512, "width of the network")
     ff: int = option(1024, "width of its feed-forward parts")
     patch: int = option(5, "frames that form one token; 1 is the paper's network")
+    wishes: bool = option(True, "teach velocities, facings and speeds of arrival beside goals")
+    stick: float = option(0.35, "part of the windows that hear of a velocity instead of a goal")
+    faced: float = option(0.85, "part of those that hear of a facing, too")
+    facing: float = option(0.3, "part of the others that do")
+    arrival: float = option(0.5, "part of the others that hear of the speed to arrive with")
+    cruise: float = option(0.5, "part of the others whose speed is the highest on the way, as of one who sets off")
     batch: int = option(128, "windows per batch")
     farthest: int = option(100, "frames from now to the farthest goal")
     fading: float = option(4.0, "frames in which an error of the history is to fade to a third")
@@ -50,7 +60,7 @@ class WalkTask:
     def __init__(self, train: WalkPool, val: WalkPool, settings: WalkSettings, seed: int) -> None:
         self.pool, self.settings, self.seed = train, settings, seed
         torch.manual_seed(seed)
-        self.model = WalkNet(settings.width, ff=settings.ff, patch=settings.patch)
+        self.model = WalkNet(settings.width, ff=settings.ff, patch=settings.patch, wishes=settings.wishes)
         self.frames = torch.from_numpy(train.frames)
         self.planted = torch.from_numpy(train.planted)
         self.starts = train.starts(SHORTEST)
@@ -83,10 +93,37 @@ class WalkTask:
             "window": seen_from(self.frames[at], turn, place),
             "inside": torch.from_numpy(inside),
             "planted": self.planted[at],
-            "speed": torch.from_numpy(self.pool.speed[now]),
+            "speed": torch.from_numpy(self._speeds(rng, now, goal)),
+            "wish": self._wishes(rng, at[:, FRAMES - 1 : -FRAMES], goal, turn),
             "kept": torch.from_numpy(kept),
             "noise": torch.from_numpy(rng.random((len(first), 1, 1)).astype(np.float32)),
         }
+
+    def _speeds(self, rng: np.random.Generator, now: Ints, goal: Ints) -> Floats:
+        """(B,) m/s over the next second, or the highest on the way to the goal."""
+        steps = now[:, None] + np.arange(0, self.settings.farthest + 1, 5)
+        on_way = np.where(steps <= goal[:, None], self.pool.speed[np.minimum(steps, self.pool.last[now, None])], 0.0)
+        highest = rng.random(len(now)) < self.settings.cruise * self.settings.wishes
+        return np.where(highest, on_way.max(axis=1), self.pool.speed[now]).astype(np.float32)
+
+    def _wishes(self, rng: np.random.Generator, at: Ints, goal: Ints, turn: Tensor) -> Tensor:
+        """(B, chain + 1, 8) what is wished at every frame that the network is asked at, seen from the goal."""
+        s, count = self.settings, len(at)
+        stick = rng.random(count) < s.stick
+        facing = np.where(stick, rng.random(count) < s.faced, rng.random(count) < s.facing) | self.pool.aside[at[:, 0]]
+        arrival = ~stick & (rng.random(count) < s.arrival)
+        velocity, faces = torch.from_numpy(self.pool.wish[at]).split(2, dim=2)  # (B, T, 2)
+        flags = torch.from_numpy(np.stack([stick, facing, arrival], axis=1)).float()[:, None]  # (B, 1, 3)
+        at_goal = torch.from_numpy(self.pool.pace[goal])[:, None, None].expand(-1, at.shape[1], 1)
+        zero = torch.zeros_like(at_goal)
+        vectors = torch.stack(
+            (torch.cat((velocity[..., :1], zero, velocity[..., 1:]), 2), torch.cat((faces[..., :1], zero, faces[..., 1:]), 2)),
+            dim=3,
+        )
+        velocity, faces = yawed(vectors, turn * turn.new_tensor([1.0, -1.0]))[:, :, ::2].unbind(3)
+        parts = (torch.ones_like(zero), velocity), (torch.ones_like(zero), faces), (torch.ones_like(zero), at_goal)
+        wish = torch.cat([part * flags[..., k : k + 1] for k, pair in enumerate(parts) for part in pair], dim=2)
+        return wish * float(s.wishes)
 
     def _chunks(self, rng: np.random.Generator, step: int) -> np.ndarray[Any, Any]:
         """How many frames of each of the predictions in a row before the trained one are kept."""
@@ -98,10 +135,11 @@ class WalkTask:
         """L2 of the next second, of its feet, and of the speed of planted toes."""
         net = cast("WalkNet", model)
         history, now = self._history(net, batch), FRAMES + int(batch["kept"].sum())
+        wish = self._wish(batch, now)
         local, turn, place = to_body(history)
         true = seen_from(batch["window"][:, now - 1 : now + FRAMES], turn, place)
         target = true[:, 1:] + (local[:, -1:] - true[:, :1]) * self._fading(true)
-        made = seen_from(net(history, batch["speed"]), turn, place)
+        made = seen_from(net(history, batch["speed"], wish), turn, place)
         inside = batch["inside"][:, now : now + FRAMES].float() * self._weights(made)
         error = (soft_square((made - target) / net.change_std).mean(2) * inside).sum() / inside.sum()
         planted = batch["planted"][:, now - 1 : now + FRAMES]
@@ -116,11 +154,17 @@ class WalkTask:
         white = torch.randn_like(history) * net.rate_std * 0.5
         steady = torch.randn_like(history[:, :1]) * (DRIFT * net.pose_std + DRIFTED) * self.drifting
         history = orthonormal(history + self.settings.noise * batch["noise"] * (white + steady))
+        now = FRAMES
         with torch.no_grad():
             for kept in batch["kept"].tolist():
-                made = net(history, batch["speed"])[:, :kept]
+                made = net(history, batch["speed"], self._wish(batch, now))[:, :kept]
+                now += kept
                 history = torch.cat((history[:, kept:], orthonormal(made)), dim=1)
         return history
+
+    def _wish(self, batch: Any, now: int) -> Tensor | None:
+        """What is wished once `now` frames of the window are past."""
+        return batch["wish"][:, now - FRAMES] if self.settings.wishes else None
 
     def _feet(self, last: Tensor, made: Tensor, target: Tensor, inside: Tensor, paired: Tensor) -> dict[str, Tensor]:
         points, true = feet(torch.cat((last, made), dim=1)), feet(torch.cat((last, target), dim=1))

@@ -13,6 +13,7 @@ import numpy.typing as npt
 
 from motionrt.errors import InvalidInputError, WalkError
 from motionrt.locomotion.goal_frame import frames_from_goal, frames_to_goal
+from motionrt.locomotion.wishes import COLUMNS, wishes_to_goal
 from motionrt.models.walknet import HISTORY
 from motionrt.motion import Motion
 from motionrt.motion.features import ccf219
@@ -22,8 +23,10 @@ from motionrt.motion.skeleton import FloatArray
 FPS = ccf219.FPS
 SPEED = 1.2  # m/s that a character walks if nothing else is wanted
 
-NextFrame = Callable[[FloatArray, FloatArray], FloatArray]
-"""frames (B, 30, 219) in the goals' frames, speeds (B,) m/s -> next frames (B, 219) in the same frames."""
+NextFrame = Callable[..., FloatArray]
+"""frames (B, 30, 219) in the goals' frames, speeds (B,) m/s -> next frames (B, 219) in the same frames.
+
+A third argument, where somebody has wishes: (B, 8), see :data:`motionrt.locomotion.wishes.COLUMNS`, in these frames."""
 
 
 class Crowd:
@@ -59,12 +62,15 @@ class Crowd:
         """``(B, 2)`` where each pelvis is over the ground now: x, z in metres."""
         return self.history[:, -1, [216, 218]]
 
-    def step(self, goals: Array, speeds: float | Array = SPEED) -> npt.NDArray[np.float64]:
+    def step(
+        self, goals: Array, speeds: float | Array = SPEED, wishes: Array | None = None
+    ) -> npt.NDArray[np.float64]:
         """Move every character by one frame (1/30 s).
 
         Args:
             goals: ``(B, 3)`` x, z and heading to arrive with.
             speeds: metres per second wanted, one for all or ``(B,)``.
+            wishes: ``(B, 8)`` rows of :meth:`motionrt.locomotion.Wish.row`, or none.
 
         Returns:
             ``(B, 219)`` the new frames in the world.
@@ -78,7 +84,8 @@ class Crowd:
             raise InvalidInputError(f"goals must be {len(self)} finite rows of x, z, heading; got {goals.shape}")
         wanted = np.broadcast_to(np.asarray(speeds, dtype=np.float32), (len(self),))
         seen = frames_to_goal(self.history, goals).astype(np.float32)
-        predicted = self._model(seen, wanted)
+        told = () if wishes is None else (wishes_to_goal(_checked(wishes, len(self)), goals),)
+        predicted = self._model(seen, wanted, *told)
         if not np.isfinite(predicted).all():
             raise WalkError("the model predicts numbers that are not finite: check the history, and the model's files")
         new = frames_from_goal(_on_so3(predicted)[:, None], goals)
@@ -106,6 +113,13 @@ def at_30_fps(motion: Motion) -> Motion:
 def to_motion(frames: Array) -> Motion:
     """``(F, 219)`` frames whose rotations are proper -> Motion at 30 fps."""
     return Motion(frames[:, ccf219.ROTATIONS].reshape(len(frames), -1, 3, 3), frames[:, ccf219.ROOT], FPS)
+
+
+def _checked(wishes: Array, count: int) -> npt.NDArray[np.float64]:
+    rows = np.asarray(wishes, dtype=np.float64)
+    if rows.shape != (count, COLUMNS) or not np.isfinite(rows).all():
+        raise InvalidInputError(f"wishes must be {count} finite rows of {COLUMNS} numbers; got {rows.shape}")
+    return rows
 
 
 def _on_so3(frames: FloatArray) -> FloatArray:

@@ -11,9 +11,7 @@ from __future__ import annotations
 import argparse
 import dataclasses
 from collections.abc import Sequence
-from pathlib import Path
 
-from motionrt_training.checkpoint import load_state
 from motionrt_training.corpora.recordings import load_recordings
 from motionrt_training.options import from_namespace, recipe_parser
 from motionrt_training.trainer import Schedule, Trainer
@@ -29,17 +27,13 @@ def train(args: argparse.Namespace) -> dict[str, float]:
         load_or_make(recordings, split, args.corpus.with_name(f"walks-{split}.npz")) for split in ("train", "val")
     )
     task = WalkTask(train_pool, val_pool, settings, schedule.seed)
-    if args.init:
-        task.model.load_state_dict(load_state(args.init)["model"])
     notes = {**dataclasses.asdict(settings), "network": task.model.config}
     return Trainer(task, schedule, args.out, notes, args.init).run()
 
 
 def parser() -> argparse.ArgumentParser:
     """Every setting with its default."""
-    result = recipe_parser("Train WalkNet.", Schedule, WalkSettings)
-    result.add_argument("--init", type=Path, help="checkpoint whose weights to begin with")
-    return result
+    return recipe_parser("Train WalkNet.", Schedule, WalkSettings)
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
