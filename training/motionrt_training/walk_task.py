@@ -117,7 +117,10 @@ class WalkTask:
         at_goal = torch.from_numpy(self.pool.pace[goal])[:, None, None].expand(-1, at.shape[1], 1)
         zero = torch.zeros_like(at_goal)
         vectors = torch.stack(
-            (torch.cat((velocity[..., :1], zero, velocity[..., 1:]), 2), torch.cat((faces[..., :1], zero, faces[..., 1:]), 2)),
+            (
+                torch.cat((velocity[..., :1], zero, velocity[..., 1:]), 2),
+                torch.cat((faces[..., :1], zero, faces[..., 1:]), 2),
+            ),
             dim=3,
         )
         velocity, faces = yawed(vectors, turn * turn.new_tensor([1.0, -1.0]))[:, :, ::2].unbind(3)

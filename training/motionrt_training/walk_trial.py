@@ -73,7 +73,9 @@ class Trial:
                 facing = facing + turn / PHASE
                 velocity = ahead * np.stack([np.sin(facing), np.cos(facing)], 1)
                 velocity += left * np.stack([np.cos(facing), -np.sin(facing)], 1)
-                wishes = [Wish((x, z), yaw).row() for (x, z), yaw in zip(velocity.tolist(), facing.tolist(), strict=True)]
+                wishes = [
+                    Wish((x, z), yaw).row() for (x, z), yaw in zip(velocity.tolist(), facing.tolist(), strict=True)
+                ]
                 goals = np.column_stack([crowd.positions, facing])
                 made.append(crowd.step(goals, 1.0, np.array(wishes)))
                 if step == PHASE // 2:
@@ -84,7 +86,11 @@ class Trial:
             turned.append(np.abs(wrapped(looks - facing)).mean())
         walks = np.stack(made, axis=1)
         slid = np.mean([foot_skate(to_motion(walk).positions()) for walk in walks])
-        return {"steer_speed": float(np.mean(slow)), "steer_facing": float(np.mean(turned)), "steer_skate": 0.3 * float(slid)}
+        return {
+            "steer_speed": float(np.mean(slow)),
+            "steer_facing": float(np.mean(turned)),
+            "steer_skate": 0.3 * float(slid),
+        }
 
     @torch.no_grad()
     def walk(self, model: WalkNet, steps: int = STEPS) -> tuple[list[NDArray[np.float64]], WaypointTargets]:

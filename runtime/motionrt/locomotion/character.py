@@ -23,6 +23,7 @@ from motionrt.locomotion.goal_frame import Goal, uncanonicalise
 from motionrt.locomotion.path import Path
 from motionrt.locomotion.path_following import Pace, Progress, walk
 from motionrt.locomotion.performance import Aim, Performance, Segment, performance_of
+from motionrt.locomotion.stepping import step_to
 from motionrt.locomotion.terrain import Heights, Terrain, raised
 from motionrt.locomotion.transitions import distance, speed_of
 from motionrt.motion import Motion
@@ -32,6 +33,8 @@ SEED = 60  # frames that a transition starts from
 STRIDE = 20  # frames of a walk that a transition into a stride ends with
 NEAR = 1.6  # metres that a transition covers without a walk before it
 SHARPEST = 1.6  # radians that one transition turns; more turns on the spot first
+EASY_TURN = 0.7  # radians that a transition into a stride or a pose turns on the way
+UPRIGHT = 0.12  # metres that the pelvis of somebody who stands is off the standing height
 SETTLE_S = 0.5  # seconds that the first pose is held
 MOVING = 0.4  # m/s above which a motion that is gone on from counts as a walk
 LOW = 0.3  # metres that the pelvis is lower than standing in a pose that one has to get up from
@@ -137,14 +140,17 @@ class Character:
 
     def stop(self, place: Place, facing: float, name: str) -> None:
         """Come to a stand at a place, facing a heading."""
-        self.turn(facing, name, place)
+        if self.moving:
+            now, turn = self.facing, float(wrapped(facing - self.facing))
+            self._stand(Goal(*place, now + float(np.clip(turn, -SHARPEST, SHARPEST))), name)
+            if abs(turn) <= SHARPEST:
+                return
         self._stand(Goal(*place, facing), name)
 
     def turn(self, facing: float, name: str, place: Place | None = None) -> None:
-        """Turn, standing at a place or where the feet are, until one more transition can do the rest."""
-        while abs(wrapped(facing - self.facing)) > SHARPEST:
-            turn = float(np.clip(wrapped(facing - self.facing), -SHARPEST, SHARPEST))
-            self._stand(Goal(*(place or over_feet(self._parts[-1])), self.facing + turn), name)
+        """Turn by steps, standing at a place or where the feet are, unless one transition can do it on the way."""
+        if abs(wrapped(facing - self.facing)) > EASY_TURN:
+            self._stand(Goal(*(place or over_feet(self._parts[-1])), facing), name)
 
     def get_up(self, name: str) -> None:
         """Stand upright over the feet, if the pose is a low one."""
@@ -206,7 +212,13 @@ class Character:
         return np.linspace(self._level, aim, motion.frames + 1)[1:]
 
     def _stand(self, goal: Goal, name: str) -> None:
-        self.into(uncanonicalise(self.models.standing, goal), name)
+        """By steps from a stand; by a transition from anything else."""
+        pose = uncanonicalise(self.models.standing, goal)
+        if self.moving or abs(self.models.standing.root[0, 1] - self._parts[-1].root[-1, 1]) > UPRIGHT:
+            self.into(pose, name)
+            return
+        self._pose = pose
+        self._add("transition", name, step_to(self.tail, pose).motion, pose)
 
     def _add(
         self,

@@ -29,6 +29,11 @@ NextFrame = Callable[..., FloatArray]
 A third argument, where somebody has wishes: (B, 8), see :data:`motionrt.locomotion.wishes.COLUMNS`, in these frames."""
 
 
+def takes_wishes(model: NextFrame) -> bool:
+    """Whether a model knows wishes; one that does says so by an attribute ``wishes``."""
+    return bool(getattr(model, "wishes", False))
+
+
 class Crowd:
     """``B`` characters that walk; one call of the model moves all of them by one frame.
 
@@ -62,9 +67,7 @@ class Crowd:
         """``(B, 2)`` where each pelvis is over the ground now: x, z in metres."""
         return self.history[:, -1, [216, 218]]
 
-    def step(
-        self, goals: Array, speeds: float | Array = SPEED, wishes: Array | None = None
-    ) -> npt.NDArray[np.float64]:
+    def step(self, goals: Array, speeds: float | Array = SPEED, wishes: Array | None = None) -> npt.NDArray[np.float64]:
         """Move every character by one frame (1/30 s).
 
         Args:

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from motionrt.locomotion.words import SemanticCloud
 
 PER_CENT = 100
+BESIDE = 0.3  # metres from where a pose is taken that the transition into it covers without a step
 
 
 class Performer:
@@ -129,6 +130,8 @@ class Performer:
         if apart(root, character.place) > NEAR:
             until = max(0.0, character.braking - apart(gate, root))
             character.go(character.way(gate), action.name, until, progress)
+        if not character.moving and BESIDE < apart(gate, character.place) < NEAR:
+            character.stop(gate, facing, action.name)
         character.turn(facing, action.name, gate if apart(gate, character.place) < NEAR else None)
         character.into(pose, action.name, level)
         character.hold(action.hold_s, action.name, action.keypoints)

@@ -6,7 +6,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
-from motionrt.locomotion.crowd import NextFrame
+from motionrt.locomotion.crowd import NextFrame, takes_wishes
 from motionrt.models.threads import thread_count
 from motionrt.motion.skeleton import FloatArray
 
@@ -29,12 +29,18 @@ class Spread:
         self.model, self.threads = model, thread_count(threads)
         self._pool = ThreadPoolExecutor(max(1, self.threads - 1), thread_name_prefix="motionrt-walk")
 
-    def __call__(self, frames: FloatArray, speed: FloatArray) -> FloatArray:
+    @property
+    def wishes(self) -> bool:
+        """Whether the model knows wishes."""
+        return takes_wishes(self.model)
+
+    def __call__(self, frames: FloatArray, speed: FloatArray, *wishes: FloatArray) -> FloatArray:
         """Next frames ``(B, 219)``, as the model gives them; see :data:`motionrt.locomotion.crowd.NextFrame`."""
         count = pieces(len(frames), self.threads)
         if count <= 1:
-            return self.model(frames, speed)
-        (first, *others) = zip(np.array_split(frames, count), np.array_split(speed, count), strict=True)
+            return self.model(frames, speed, *wishes)
+        told = (frames, speed, *wishes)
+        (first, *others) = zip(*(np.array_split(values, count) for values in told), strict=True)
         elsewhere = [self._pool.submit(self.model, *part) for part in others]
         return np.concatenate([self.model(*first), *(part.result() for part in elsewhere)])
 

@@ -1,20 +1,30 @@
-"""One character, one frame at a time, for a game's loop: walks to its goal, stands there, sets off to the next."""
+"""One character, one frame at a time, for a game's loop: goes to its goal or where a stick points, stands, goes on.
+
+Goals and sticks may change before every frame. What is far is walked to by WalkNet, which is led there
+(:mod:`motionrt.locomotion.leading`); what is near is stepped to (:mod:`motionrt.locomotion.stepping`), and so is the
+last bit of every way, and every turn on the spot.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Generator
+from math import hypot
+from types import TracebackType
 
 import numpy as np
 import numpy.typing as npt
 
 from motionrt.locomotion.arguments import as_goal
 from motionrt.locomotion.bearings import apart, facing_of, over_feet, place_of
-from motionrt.locomotion.character import MOVING, NEAR, SEED, SHARPEST, STRIDE
+from motionrt.locomotion.character import MOVING, SEED, STRIDE
 from motionrt.locomotion.character_models import CharacterModels
-from motionrt.locomotion.crowd import FPS, SPEED, Crowd, at_30_fps, to_motion
+from motionrt.locomotion.crowd import FPS, SPEED, Crowd, at_30_fps, takes_wishes, to_motion
 from motionrt.locomotion.goal_frame import Goal, uncanonicalise
+from motionrt.locomotion.leading import RUNS_AT, Lead, by_stick, towards
 from motionrt.locomotion.path_following import Pace
+from motionrt.locomotion.stepping import step_to
 from motionrt.locomotion.transitions import distance, speed_of
+from motionrt.locomotion.wishes import Wish
 from motionrt.models.walknet import HISTORY
 from motionrt.motion import Motion
 from motionrt.motion.features import ccf219
@@ -22,19 +32,24 @@ from motionrt.motion.feet.live_lock import FootLocker
 from motionrt.motion.rotations import wrapped
 from motionrt.untrusted.arguments import check_flags, checked_whole
 
-THERE = 0.3  # metres and radians: somebody who stands this near to a goal stays
+STEPPED = 1.3  # metres that somebody who stands steps, in any direction, instead of walking
+LOOKS = 0.9  # radians between facing and way: more is turned to by steps before a walk
+CLOSE, CLOSE_TURN = 0.02, 0.06  # metres and radians: somebody who stands this near to a goal stays
+STOPPED = 0.35  # m/s below which a walk that shall end gives way to steps
+QUICKEST, FASTEST_TURN = 6.0, 400.0  # m/s and degrees/s between frames: more is no walk
+LOWEST, HIGHEST = 0.7, 1.1  # of the standing height: lower or higher is no walk
 IDLE_S = 2.0  # seconds of standing that are made at once
 
 Frames = npt.NDArray[np.float64]
 
 
 class Stroller:
-    """A character that is asked for its next frame again and again; its goal may change between any two frames.
+    """A character that is asked for its next frame again and again; what it shall do may change between any two.
 
     Args:
         models: the models.
         start: where it stands, or what it did before.
-        goal: where to walk first.
+        goal: where to go first.
         speed: metres per second.
         seed: of the small movements while it stands.
     """
@@ -43,18 +58,26 @@ class Stroller:
         self, models: CharacterModels, start: Goal | Motion, goal: Goal, speed: float = SPEED, seed: int = 0
     ) -> None:
         self.models, self.goal, self.speed = models, goal, Pace(speed=speed).speed
+        self.stick: Wish | None = None
         before = at_30_fps(start) if isinstance(start, Motion) else uncanonicalise(models.standing, start)
         frames = ccf219.encode(before)[-SEED:].astype(np.float64)
         self._last: Frames = np.pad(frames, ((SEED - len(frames), 0), (0, 0)), mode="edge")
         self._ready: list[Frames] = []
+        self._breaks: list[int] = []  # how many of the frames that are ready may be left when something else begins
         self._walks = speed_of(before) > MOVING
         self._seed = checked_whole(seed, "seed", 0)
 
     def aim(self, goal: Goal) -> None:
-        """A new goal, from the next frame on."""
-        if goal != self.goal:
-            self.goal, self._ready = goal, []
-            self._walks = speed_of(self._seen(), 0.2) > MOVING
+        """A new goal, from the next frame on, or from where the foot that is in the air lands."""
+        if goal != self.goal or self.stick is not None:
+            self.goal, self.stick = goal, None
+            self._break_off()
+
+    def steer(self, wish: Wish) -> None:
+        """A velocity, and a facing that may be another, instead of a goal; as :meth:`aim`."""
+        if wish != self.stick:
+            self.stick = wish
+            self._break_off()
 
     def step(self) -> Motion:
         """The next frame."""
@@ -64,48 +87,151 @@ class Stroller:
         self._last = np.concatenate([self._last[1:], frame[None]])
         return to_motion(frame[None])
 
-    def _next(self) -> Frames:
-        """What comes next: a frame of a walk, or a whole transition or pause."""
-        seen = self._seen()
-        away = apart(place_of(seen), (self.goal.x, self.goal.z))
-        if not self._walks:
-            return self._from_stand(seen, away)
-        if away <= distance(self.speed, 0.0):
-            return self._stand(seen, Goal(self.goal.x, self.goal.z, self._turned(seen, self.goal.heading)))
-        crowd = Crowd(self.models.walk, self._last[None, -HISTORY:])
-        return crowd.step(np.array([self.goal.row()]), self.speed)
+    def _break_off(self) -> None:
+        """Leave out what is ready behind the next frame in which both feet stand."""
+        left = len(self._ready)
+        keep = next((left - rest for rest in self._breaks if rest <= left), 0 if not self._breaks else left)
+        self._ready = self._ready[:keep]
 
-    def _from_stand(self, seen: Motion, away: float) -> Frames:
+    def _next(self) -> Frames:
+        """What comes next: a frame of a walk, or a number of steps, or a pause."""
+        self._breaks = []
+        seen = self._seen()
+        return self._walk(seen) if self._walks else self._from_stand(seen)
+
+    def _walk(self, seen: Motion) -> Frames:
+        lead = self._lead(seen)
+        if lead.speed < RUNS_AT and (now := speed_of(seen, 0.15)) < max(STOPPED, lead.speed):
+            return self._end_of_walk(seen, now)
+        place = place_of(seen)
+        wishes = np.array([lead.wish().row()]) if takes_wishes(self.models.walk) else None
+        crowd = Crowd(self.models.walk, self._last[None, -HISTORY:])
+        made = crowd.step(np.array([lead.goal(place).row()]), lead.speed, wishes)
+        return made if self._is_walk(made[0]) else self._step(seen, Goal(*over_feet(seen), facing_of(seen)))
+
+    def _lead(self, seen: Motion) -> Lead:
+        place, facing, now = place_of(seen), facing_of(seen), speed_of(seen, 0.2)
+        if self.stick is None:
+            return towards(self.goal, place, facing, now, self.speed, FPS)
+        return by_stick(self.stick.velocity or (0.0, 0.0), self.stick.facing, facing, now, FPS)
+
+    def _end_of_walk(self, seen: Motion, now: float) -> Frames:
+        """Steps to the goal if that is near, else to a stand where the feet are."""
+        x, z = over_feet(seen)
+        if self.stick is None and apart((x, z), (self.goal.x, self.goal.z)) < STEPPED:
+            return self._step(seen, self.goal)
+        return self._step(seen, Goal(x, z, facing_of(seen)))
+
+    def _from_stand(self, seen: Motion) -> Frames:
         x, z = place_of(seen)
+        facing = facing_of(seen)
+        if self.stick is not None:
+            return self._by_stick(seen, self.stick, facing)
+        away = apart((x, z), (self.goal.x, self.goal.z))
+        if away <= STEPPED:
+            if away > CLOSE or abs(wrapped(self.goal.heading - facing)) > CLOSE_TURN:
+                return self._step(seen, self.goal)
+            return self._pause(seen)
         ahead = float(np.arctan2(self.goal.x - x, self.goal.z - z))
-        off = abs(wrapped(ahead - facing_of(seen)))
-        if away > NEAR and off > SHARPEST:
-            return self._stand(seen, Goal(*over_feet(seen), self._turned(seen, ahead)))
-        if away > NEAR:
-            return self._set_off(seen, ahead, away)
-        if away > THERE or abs(wrapped(self.goal.heading - facing_of(seen))) > THERE:
-            return self._stand(seen, Goal(self.goal.x, self.goal.z, self._turned(seen, self.goal.heading)))
-        self._seed += 1
-        return _rows(self.models.hold(seen[-1:], IDLE_S, self._seed))
+        if abs(wrapped(ahead - facing)) > LOOKS:
+            return self._step(seen, Goal(*over_feet(seen), ahead))
+        return self._set_off(seen, ahead, away)
+
+    def _by_stick(self, seen: Motion, stick: Wish, facing: float) -> Frames:
+        velocity = stick.velocity or (0.0, 0.0)
+        wanted = hypot(*velocity)
+        way = float(np.arctan2(velocity[0], velocity[1]))
+        if wanted <= RUNS_AT:
+            if stick.facing is not None and abs(wrapped(stick.facing - facing)) > 2 * CLOSE_TURN:
+                return self._step(seen, Goal(*over_feet(seen), stick.facing))
+            return self._pause(seen)
+        looks = way if stick.facing is None else stick.facing
+        if abs(wrapped(looks - facing)) > LOOKS:
+            return self._step(seen, Goal(*over_feet(seen), looks))
+        return self._set_off(seen, way, np.inf)
 
     def _set_off(self, seen: Motion, ahead: float, away: float) -> Frames:
         self._walks = True
+        if takes_wishes(self.models.walk):
+            return self._walk(seen)
         far = min(distance(0.0, self.speed), away)
         x, z = place_of(seen)
         place = Goal(x + far * float(np.sin(ahead)), z + far * float(np.cos(ahead)), ahead)
         return _rows(self.models.transition(seen, uncanonicalise(self.models.stride[-STRIDE:], place)))
 
-    def _stand(self, seen: Motion, goal: Goal) -> Frames:
+    def _step(self, seen: Motion, goal: Goal) -> Frames:
         self._walks = False
-        return _rows(self.models.transition(seen, uncanonicalise(self.models.standing, goal), held=True))
+        steps = step_to(seen, uncanonicalise(self.models.standing, goal))
+        self._breaks = [steps.motion.frames - landing for landing in steps.landings]
+        return _rows(steps.motion)
 
-    def _turned(self, seen: Motion, facing: float) -> float:
-        """As far towards a heading as one transition turns."""
-        now = facing_of(seen)
-        return now + float(np.clip(wrapped(facing - now), -SHARPEST, SHARPEST))
+    def _pause(self, seen: Motion) -> Frames:
+        self._seed += 1
+        return _rows(self.models.hold(seen[-1:], IDLE_S, self._seed))
+
+    def _is_walk(self, frame: Frames) -> bool:
+        """Whether a frame can follow the last one."""
+        now, before = to_motion(frame[None]), self._seen()[-1:]
+        way = float(np.linalg.norm(now.root[0] - before.root[0])) * FPS
+        turn = abs(float(wrapped(facing_of(now) - facing_of(before)))) * FPS
+        height = float(now.root[0, 1] / self.models.standing.root[0, 1])
+        return way < QUICKEST and turn < np.radians(FASTEST_TURN) and LOWEST < height < HIGHEST
 
     def _seen(self) -> Motion:
         return to_motion(self._last)
+
+
+class Stream(Generator[Motion, Goal | None, None]):
+    """Frames for ever, one :class:`Motion` of one frame at 30 fps each.
+
+    ``next`` goes on, :meth:`send` gives a new goal, :meth:`steer` a stick's wish; each gives the next frame.
+    """
+
+    def __init__(self, walker: Stroller, *, foot_lock: bool = True) -> None:
+        self._walker, self._closed = walker, False
+        self._locker = FootLocker(FPS) if foot_lock else None
+
+    def send(self, value: Goal | None) -> Motion:
+        """The next frame; on the way to a new goal, if one is given."""
+        if self._closed:
+            raise StopIteration
+        if value is not None:
+            self._walker.aim(as_goal(value))
+        frame = self._walker.step()
+        if self._locker is None:
+            return frame
+        rotations, root = self._locker.step(frame.rotations[0], frame.root[0])
+        return Motion(rotations[None], root[None], FPS)
+
+    def steer(self, velocity: tuple[float, float], facing: float | None = None) -> Motion:
+        """The next frame, led by a stick until the next :meth:`steer` or goal.
+
+        Args:
+            velocity: (x, z) m/s over the ground, in the world; (0, 0) stands still. At most 6 m/s.
+            facing: radians from +Z towards +X that the body shall look at, whichever way it goes; by default it looks
+                where it goes.
+
+        Raises:
+            InvalidInputError: numbers that are not finite, or too fast.
+        """
+        self._walker.steer(Wish((float(velocity[0]), float(velocity[1])), facing))
+        return self.send(None)
+
+    def throw(
+        self,
+        typ: type[BaseException] | BaseException,
+        val: BaseException | object = None,
+        tb: TracebackType | None = None,
+    ) -> Motion:
+        """As of any generator: raised here, which ends the stream."""
+        self._closed = True
+        if isinstance(typ, BaseException):
+            raise typ
+        raise typ() if val is None else val if isinstance(val, BaseException) else typ(val)
+
+    def close(self) -> None:
+        """No more frames."""
+        self._closed = True
 
 
 def stream(
@@ -116,22 +242,10 @@ def stream(
     speed: float = SPEED,
     foot_lock: bool = True,
     seed: int = 0,
-) -> Generator[Motion, Goal | None, None]:
-    """Frames for ever, one :class:`Motion` of one frame at 30 fps each: ``next`` goes on, ``send`` gives a new goal."""
+) -> Stream:
+    """A character for a game's loop; see :class:`Stream`."""
     check_flags(foot_lock=foot_lock)
-    return _frames(Stroller(models, start, goal, speed, seed), foot_lock=foot_lock)
-
-
-def _frames(walker: Stroller, *, foot_lock: bool) -> Generator[Motion, Goal | None, None]:
-    locker = FootLocker(FPS)
-    while True:
-        frame = walker.step()
-        if foot_lock:
-            rotations, root = locker.step(frame.rotations[0], frame.root[0])
-            frame = Motion(rotations[None], root[None], FPS)
-        told = yield frame
-        if told is not None:
-            walker.aim(as_goal(told))
+    return Stream(Stroller(models, start, goal, speed, seed), foot_lock=foot_lock)
 
 
 def _rows(motion: Motion) -> Frames:

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from fake_character_models import FPS, FakeCharacterModels
 from motions import random_motion, walking
+from scipy.spatial.transform import Rotation
 
 from motionrt.errors import InvalidInputError
 from motionrt.locomotion.bearings import facing_of
@@ -16,6 +17,7 @@ from motionrt.locomotion.goal_frame import Goal
 from motionrt.locomotion.starting_poses import stride_of
 from motionrt.locomotion.streaming import stream
 from motionrt.motion import Motion
+from motionrt.motion.rotations import wrapped
 
 
 def frames(goal: Goal, count: int, start: Goal | Motion | None = None, **options: object) -> list[Motion]:
@@ -34,13 +36,63 @@ def test_it_arrives_and_stays_facing_as_told() -> None:
     assert np.linalg.norm(np.diff(roots(seen), axis=0), axis=1).max() < 0.1
 
 
+def turns_gently(frames: np.ndarray, speed: np.ndarray) -> np.ndarray:
+    """The last frame, turned towards the goal by at most 6 degrees, and moved ahead."""
+    out = frames[:, -1].astype(np.float64)
+    facing = np.arctan2(out[:, 2], out[:, 8])
+    off = np.arctan2(-out[:, 216], -out[:, 218]) - facing
+    facing = facing + np.clip((off + np.pi) % (2 * np.pi) - np.pi, -0.1, 0.1)
+    out[:, 0:9] = Rotation.from_euler("y", facing[:, None]).as_matrix().reshape(-1, 9)
+    out[:, [216, 218]] += np.stack([np.sin(facing), np.cos(facing)], axis=1) * (np.asarray(speed) / FPS)[:, None]
+    return out.astype(np.float32)
+
+
 def test_a_new_goal_takes_effect_from_the_next_frame() -> None:
-    walker = stream(FakeCharacterModels(), stride_of(walking(60, FPS)), Goal(0, 20))
+    walker = stream(FakeCharacterModels(turns_gently), stride_of(walking(60, FPS)), Goal(0, 20))
     before = [next(walker) for _ in range(30)]
     after = [walker.send(Goal(20, 1, 0)), *islice(walker, 9)]
     assert np.diff(roots(before), axis=0)[:, 0] == pytest.approx(0, abs=1e-6)
     steps = np.diff(roots([before[-1], *after]), axis=0)
-    assert (steps[:, 0] > 0.03).all()
+    assert (np.diff(steps[:, 0]) > 0.0005).all()  # it turns there from frame to frame
+    assert (np.linalg.norm(steps, axis=1) < 0.05).all()
+
+
+def leaps(frames: np.ndarray, speed: np.ndarray) -> np.ndarray:
+    """The last frame, a metre on."""
+    out = frames[:, -1].copy()
+    out[:, 218] += 1.0
+    return out
+
+
+def test_a_walk_that_leaps_is_not_shown() -> None:
+    seen = list(islice(stream(FakeCharacterModels(leaps), stride_of(walking(60, FPS)), Goal(0, 20)), 60))
+    assert np.linalg.norm(np.diff(roots(seen), axis=0), axis=1).max() < 0.1
+
+
+@pytest.mark.parametrize("goal", [Goal(0.3, 0.4), Goal(-0.8, 0.1, 1.0), Goal(0, -0.7), Goal(0, 0, 3.0)])
+def test_a_near_goal_is_stepped_to(goal: Goal) -> None:
+    seen = frames(goal, 150, Goal(0, 0), foot_lock=False)
+    np.testing.assert_allclose(roots(seen)[-1], [goal.x, goal.z], atol=0.02)
+    assert abs(wrapped(facing_of(seen[-1]) - goal.heading)) < 0.05
+    ankles = np.concatenate([motion.positions()[:, [7, 8], 1] for motion in seen])
+    assert (ankles.max(axis=0) - ankles[0] > 0.04).all()
+
+
+def test_a_stick_leads_until_a_goal_is_given() -> None:
+    walker = stream(FakeCharacterModels(turns_gently), stride_of(walking(60, FPS)), Goal(0, 20))
+    seen = [walker.steer((1.0, 0.0)) for _ in range(90)]
+    assert np.diff(roots(seen), axis=0)[-1] == pytest.approx([1.0 / FPS, 0.0], abs=0.01)
+    seen = [walker.steer((0.0, 0.0)) for _ in range(120)]
+    np.testing.assert_allclose(roots(seen[-20:]), np.tile(roots(seen[-1:]), (20, 1)), atol=0.02)
+    x, z = roots(seen[-1:])[0]
+    walker.send(Goal(float(x), float(z) + 0.6))
+    assert roots(list(islice(walker, 150)))[-1] == pytest.approx([x, z + 0.6], abs=0.03)
+
+
+@pytest.mark.parametrize("velocity", [(np.nan, 0.0), (9.0, 0.0)])
+def test_a_stick_that_nobody_can_follow_is_refused(velocity: tuple[float, float]) -> None:
+    with pytest.raises(InvalidInputError, match="wish"):
+        stream(FakeCharacterModels(), Goal(0, 0), Goal(0, 0)).steer(velocity)
 
 
 def test_a_goal_sent_while_it_stands_makes_it_set_off() -> None:

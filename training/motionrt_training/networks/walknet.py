@@ -74,9 +74,7 @@ class WalkNet(nn.Module):
         """Columns that never change, as they always are: nothing in the data would bring them back from an error."""
         return local * (1.0 - self.still) + self.pose_mean * self.still
 
-    def inputs(
-        self, local: Tensor, turn: Tensor, place: Tensor, speed: Tensor, wish: Tensor | None = None
-    ) -> Tensor:
+    def inputs(self, local: Tensor, turn: Tensor, place: Tensor, speed: Tensor, wish: Tensor | None = None) -> Tensor:
         """(B, 30, 446 or 454): normalised pose, its rate, the goal as seen from the body, the speed, the wishes."""
         pose = (local - self.pose_mean) / self.pose_std
         rate = (local[:, 1:] - local[:, :-1]) / self.rate_std
@@ -124,7 +122,9 @@ def turned_wish(wish: Tensor, turn: Tensor) -> Tensor:
     """Wishes (B, 8) as a body sees them whose heading has the (cos, sin) `turn`."""
     back = turn * turn.new_tensor([1.0, -1.0])
     zero = torch.zeros_like(wish[:, :1])
-    vectors = torch.cat((wish[:, 1:2], zero, wish[:, 2:3], wish[:, 4:5], zero, wish[:, 5:6]), dim=1).unflatten(1, (2, 3))
+    vectors = torch.cat((wish[:, 1:2], zero, wish[:, 2:3], wish[:, 4:5], zero, wish[:, 5:6]), dim=1).unflatten(
+        1, (2, 3)
+    )
     vectors = yawed(vectors, back)[..., ::2]  # (B, 2, 2)
     return torch.cat((wish[:, :1], vectors[:, 0], wish[:, 3:4], vectors[:, 1], wish[:, 6:]), dim=1)
 

@@ -64,7 +64,7 @@ def lock_feet(
     positions = motion.positions().astype(np.float64)
     offset = _offsets(toes, planted, _calm(speed), floor if level else None, blend_s * motion.fps)
     offset[..., 1] += lift(toes[..., 1] + offset[..., 1] - floor, speed, clearance)
-    drop = _smooth_cover(needed_drop(positions, offset, planted, max_drop), max(1, round(blend_s * motion.fps / 2)))
+    drop = smooth_cover(needed_drop(positions, offset, planted, max_drop), max(1, round(blend_s * motion.fps / 2)))
     offset[..., 1] += drop[:, None]
     sunk = np.array([0, 1, 0]) * drop[:, None]
     rotations = bend_legs(motion.rotations, positions - sunk[:, None], motion.global_rotations(), offset)
@@ -176,7 +176,7 @@ def needed_drop(positions: Array, offset: Array, planted: BoolArray, max_drop: f
     return np.asarray(np.clip(drop.max(axis=-1), 0, max_drop))
 
 
-def _smooth_cover(values: Array, half: int) -> Array:
+def smooth_cover(values: Array, half: int) -> Array:
     """A smooth curve nowhere below ``values`` ``(F,)``: their running maximum, averaged over the same window."""
     if not values.any():
         return np.zeros_like(values)

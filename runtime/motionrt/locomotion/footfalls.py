@@ -1,0 +1,109 @@
+"""Which foot is set where and when, so that somebody who stands comes to stand elsewhere by steps.
+
+Short ways are walked foot past foot; sideways, and where the body turns much, one foot opens and the other closes.
+Everything is told by the body's share of the way: a foot that lands at share u lands where it would stand if the body
+stood at u.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import ceil
+
+import numpy as np
+import numpy.typing as npt
+
+STRIDE, CLOSING = 0.45, 0.42  # metres of a step past the other foot, and of a pair of steps that open and close
+TURN, PAST_TURN = 1.05, 0.35  # radians that a pair turns, and a step past the other foot
+SWING = 11  # frames at 30 fps that a foot is in the air
+PAUSE = 1  # frames between steps with both feet down
+LEAD, SETTLE = 4, 7  # frames before the first step and behind the last
+NARROW = 0.5  # metres sideways per metre ahead: more is a side step
+
+Shares = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Footfall:
+    """One step.
+
+    Attributes:
+        foot: 0 left, 1 right.
+        start, end: frames; in the air from after ``start`` to before ``end``.
+        share: of the body's way, where it lands.
+    """
+
+    foot: int
+    start: int
+    end: int
+    share: float
+
+
+def plan_steps(
+    ahead: float, left: float, turn: float, displaced: tuple[bool, bool], in_air: int | None = None
+) -> list[Footfall]:
+    """The steps that move a body by so much.
+
+    Args:
+        ahead, left: metres, seen from the way that the body faces half way.
+        turn: radians to the left.
+        displaced: whether the left and the right foot stand elsewhere than they shall stand at the end.
+        in_air: a foot that is in the air already, 0 left, 1 right; it goes first, and at once.
+
+    Returns:
+        Steps in order of time; none where nothing is displaced. The motion lasts :func:`duration` frames.
+    """
+    far = float(np.hypot(ahead, left))
+    past = abs(left) <= NARROW * abs(ahead) and abs(turn) <= PAST_TURN * max(1, ceil(far / STRIDE))
+    first = _first(left, turn, displaced) if in_air is None else in_air
+    lead = LEAD if in_air is None else 1
+    if past and far > STRIDE / 4:
+        count = ceil(far / STRIDE)
+        shares = [min(1.0, (k + 1) / count) for k in range(count + 1)]
+    else:
+        pairs = max(1, ceil(far / CLOSING), ceil(abs(turn) / TURN))
+        shares = [(k // 2 + 1) / pairs for k in range(2 * pairs)]
+    feet = [(first + k) % 2 for k in range(len(shares))]
+    kept = [(foot, share) for foot, share in zip(feet, shares, strict=True) if displaced[foot] or far + abs(turn) > 0.1]
+    every = SWING + PAUSE
+    return [Footfall(foot, lead + k * every, lead + k * every + SWING, share) for k, (foot, share) in enumerate(kept)]
+
+
+def duration(steps: list[Footfall]) -> int:
+    """Frames of the whole motion, until the body rests."""
+    return (steps[-1].end if steps else 2 * LEAD) + SETTLE
+
+
+def shares(steps: list[Footfall], frames: int) -> Shares:
+    """``(F, 2)`` where each foot is on the body's way at each of the frames 1 to ``frames``."""
+    now = np.arange(1, frames + 1)
+    out = np.zeros((frames, 2))
+    for step in steps:
+        before = out[step.start - 1, step.foot]
+        passed = eased((now - step.start) / (step.end - step.start))
+        moving = now > step.start
+        out[moving, step.foot] = (before + (step.share - before) * passed)[moving]
+    return out
+
+
+def swings(steps: list[Footfall], frames: int) -> Shares:
+    """``(F, 2)`` how far each foot is through its step, 0 to 1; 0 where it stands."""
+    now = np.arange(1, frames + 1)
+    out = np.zeros((frames, 2))
+    for step in steps:
+        inside = (now > step.start) & (now < step.end)
+        out[inside, step.foot] = ((now - step.start) / (step.end - step.start))[inside]
+    return out
+
+
+def eased(share: Shares) -> Shares:
+    """0 to 1 with speed and acceleration zero at both ends."""
+    s = np.clip(share, 0.0, 1.0)
+    return s * s * s * (10 - 15 * s + 6 * s * s)
+
+
+def _first(left: float, turn: float, displaced: tuple[bool, bool]) -> int:
+    """The foot on the side that is gone to or turned to; else one that has to move."""
+    if displaced[0] != displaced[1]:
+        return 0 if displaced[0] else 1
+    return 0 if left + 0.3 * turn >= 0 else 1
