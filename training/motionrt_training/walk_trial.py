@@ -19,8 +19,14 @@ STEPS = 300  # frames that are walked
 SPEEDS = (0.9, 1.2, 1.2, 1.2, 1.2, 1.5)  # m/s of the characters
 
 PHASES = (
-    (1.2, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 2.0), (-0.7, 0.0, 0.0), (0.0, 0.6, 0.0), (2.5, 0.0, 0.0), (0.0, 0.0, 0.0),
-)  # fmt: skip
+    (1.2, 0.0, 0.0),
+    (0.0, 0.0, 0.0),
+    (0.0, 0.0, 2.0),
+    (-0.7, 0.0, 0.0),
+    (0.0, 0.6, 0.0),
+    (2.5, 0.0, 0.0),
+    (0.0, 0.0, 0.0),
+)
 """What a stick says one after the other: m/s ahead and to the left, and radians turned."""
 PHASE = 60  # frames of each
 
@@ -95,7 +101,6 @@ class Trial:
     @torch.no_grad()
     def walk(self, model: WalkNet, steps: int = STEPS) -> tuple[list[NDArray[np.float64]], WaypointTargets]:
         """Each character's walked frames (steps, 219), and the routes as they stand at the end."""
-
         crowd, routes = Crowd(next_frames(model), self.history), WaypointTargets(self.paths)
         made = [crowd.step(routes.goals(crowd.positions), np.array(SPEEDS)) for _ in range(steps)]
         return list(np.stack(made, axis=1)), routes

@@ -45,7 +45,8 @@ def plan_steps(
     """The steps that move a body by so much.
 
     Args:
-        ahead, left: metres, seen from the way that the body faces half way.
+        ahead: metres, seen from the way that the body faces half way.
+        left: metres to the left of that.
         turn: radians to the left.
         displaced: whether the left and the right foot stand elsewhere than they shall stand at the end.
         in_air: a foot that is in the air already, 0 left, 1 right; it goes first, and at once.

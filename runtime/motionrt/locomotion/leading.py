@@ -46,7 +46,7 @@ class Lead:
 
 
 def towards(goal: Goal, place: Place, facing: float, now: float, pace: float, fps: float) -> Lead:
-    """The way to a goal for somebody at ``place`` who looks at ``facing`` and goes ``now`` m/s; ``pace`` is the most."""
+    """The way to a goal for who is at ``place``, looks at ``facing`` and goes ``now`` m/s; ``pace`` is the most."""
     dx, dz = goal.x - place[0], goal.z - place[1]
     away = hypot(dx, dz)
     bearing = float(np.arctan2(dx, dz))

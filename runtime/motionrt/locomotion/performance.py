@@ -9,6 +9,7 @@ from pathlib import Path as FilePath
 
 import numpy as np
 
+from motionrt.locomotion.held_points import hold_points
 from motionrt.locomotion.path import Path
 from motionrt.locomotion.terrain import Heights, on_plane, raised, smoothed
 from motionrt.metrics.locomotion import end_error, path_distances
@@ -125,10 +126,11 @@ class Performance:
 def performance_of(
     motion: Motion, segments: Sequence[Segment], aims: Sequence[Aim], ground: Heights, *, foot_lock: bool = True
 ) -> Performance:
-    """Clean up the feet if asked to, raise all to the ``(F,)`` heights of the ground, and measure every segment."""
+    """Clean up feet and held keypoints if asked to, raise all to the ``(F,)`` heights of the ground, and measure."""
     plane = lock_feet(motion) if foot_lock else motion
     ground = smoothed(ground)
-    motion = raised(plane, ground)
+    holds = [(each.start, each.end, each.keypoints) for each in segments if each.kind == "hold"]
+    motion = hold_points(raised(plane, ground), holds) if foot_lock else raised(plane, ground)
     pairs = zip(segments, aims, strict=True)
     measured = tuple(_measured(plane if isinstance(aim, Motion) else motion, segment, aim) for segment, aim in pairs)
     return Performance(motion, measured, tuple(aim for aim in aims if isinstance(aim, Path)), ground)

@@ -80,13 +80,13 @@ def step_to(seed: Motion, target: Motion) -> Steps:
     placed = shares(steps, frames)
     body = _smoothed(placed.mean(axis=1))
     coasted = _coasting(seed, frames)
-    root = _body_path(start, end, placed, body, swings(steps, frames)) + coasted
+    root = _body_path(start, end, body, swings(steps, frames)) + coasted
     upper = _upper(now, target, body, start, end)
     feet, turns = _feet(start, end, steps, frames)
     rotations, root = _with_legs(upper, root, feet, turns, _ahead(start, end, feet, body))
     rotations[-1], root[-1] = target.rotations[0], target.root[0]
     made = Motion(rotations.astype(np.float32), root.astype(np.float32), FPS)
-    return Steps(made, tuple(step.end for step in steps[:-1]) + (frames,))
+    return Steps(made, (*(step.end for step in steps[:-1]), frames))
 
 
 @dataclass(frozen=True)
@@ -100,12 +100,10 @@ class _Stand:
 
     @classmethod
     def of(cls, pose: Motion) -> _Stand:
-        positions, turned = fk(
-            pose.rotations[0].astype(float), pose.root[0].astype(float), SMPL24.offsets.astype(float), SMPL24.parents
-        )
-        return cls(
-            pose.root[0].astype(float), float(heading(pose)[0]), positions[_ANKLES], turned[_ANKLES]
-        )
+        rotations, root = pose.rotations[0].astype(np.float64), pose.root[0].astype(np.float64)
+        positions, turned = fk(rotations, root, SMPL24.offsets.astype(np.float64), SMPL24.parents)
+        ankles, turns = positions[_ANKLES].astype(np.float64), turned[_ANKLES].astype(np.float64)
+        return cls(root, float(heading(pose)[0]), ankles, turns)
 
 
 def _planned(start: _Stand, end: _Stand) -> list[Footfall]:
@@ -156,7 +154,7 @@ def _feet(start: _Stand, end: _Stand, steps: list[Footfall], frames: int) -> tup
     return ankles, turns
 
 
-def _body_path(start: _Stand, end: _Stand, placed: Values, body: Values, air: Values) -> Values:
+def _body_path(start: _Stand, end: _Stand, body: Values, air: Values) -> Values:
     """``(F, 3)`` the pelvis: on its way, its weight over the foot that stands."""
     path = start.root + body[:, None] * (end.root - start.root)
     yaw = start.yaw + wrapped(end.yaw - start.yaw) * body

@@ -101,8 +101,8 @@ class Stroller:
 
     def _walk(self, seen: Motion) -> Frames:
         lead = self._lead(seen)
-        if lead.speed < RUNS_AT and (now := speed_of(seen, 0.15)) < max(STOPPED, lead.speed):
-            return self._end_of_walk(seen, now)
+        if lead.speed < RUNS_AT and speed_of(seen, 0.15) < STOPPED:
+            return self._end_of_walk(seen)
         place = place_of(seen)
         wishes = np.array([lead.wish().row()]) if takes_wishes(self.models.walk) else None
         crowd = Crowd(self.models.walk, self._last[None, -HISTORY:])
@@ -115,7 +115,7 @@ class Stroller:
             return towards(self.goal, place, facing, now, self.speed, FPS)
         return by_stick(self.stick.velocity or (0.0, 0.0), self.stick.facing, facing, now, FPS)
 
-    def _end_of_walk(self, seen: Motion, now: float) -> Frames:
+    def _end_of_walk(self, seen: Motion) -> Frames:
         """Steps to the goal if that is near, else to a stand where the feet are."""
         x, z = over_feet(seen)
         if self.stick is None and apart((x, z), (self.goal.x, self.goal.z)) < STEPPED:
@@ -221,7 +221,7 @@ class Stream(Generator[Motion, Goal | None, None]):
         self,
         typ: type[BaseException] | BaseException,
         val: BaseException | object = None,
-        tb: TracebackType | None = None,
+        tb: TracebackType | None = None,  # noqa: ARG002  # as every generator
     ) -> Motion:
         """As of any generator: raised here, which ends the stream."""
         self._closed = True

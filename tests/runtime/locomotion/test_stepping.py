@@ -11,8 +11,8 @@ from motions import standing
 from motionrt.errors import InvalidInputError
 from motionrt.locomotion.footfalls import plan_steps
 from motionrt.locomotion.goal_frame import Goal, uncanonicalise
-from motionrt.locomotion.starting_poses import stride_of
 from motionrt.locomotion.starting_poses import standing as shipped
+from motionrt.locomotion.starting_poses import stride_of
 from motionrt.locomotion.stepping import step_to
 from motionrt.motion import SMPL24, Motion
 
