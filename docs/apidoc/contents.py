@@ -49,7 +49,8 @@ PAGES: dict[str, Page] = {
             "motionrt.locomotion:Segment", "motionrt.locomotion:PerformanceMeasures", "motionrt:WalkTo",
             "motionrt:Follow", "motionrt:Act", "motionrt:Do", "motionrt:Stand", "motionrt:Wait", "motionrt:Script",
             "motionrt.locomotion:Agent", "motionrt.locomotion:Waypoints", "motionrt.locomotion:PoseSolution",
-            "motionrt.locomotion:Crowd", "motionrt.locomotion:SemanticCloud", "motionrt.locomotion:load_cloud",
+            "motionrt.locomotion:Crowd", "motionrt.locomotion:Stream", "motionrt.locomotion:Wish",
+            "motionrt.locomotion:SemanticCloud", "motionrt.locomotion:load_cloud",
         ),
     ),
     "pictures": (

@@ -9,7 +9,7 @@ from pathlib import Path as FilePath
 
 import numpy as np
 import pytest
-from fake_character_models import FPS, FakeCharacterModels
+from fake_character_models import FPS, FakeCharacterModels, turns_gently
 from motions import random_motion, walking
 
 from motionrt import Act, Follow, Goal, Path, Runtime, Scene, WalkTo, load_motion
@@ -128,6 +128,7 @@ def test_walks_together_are_those_of_each_alone(runtime: Runtime) -> None:
 
 
 def test_a_stream_takes_a_new_goal_between_frames(runtime: Runtime) -> None:
+    runtime.character_models = FakeCharacterModels(turns_gently)  # type: ignore[misc]
     walker = runtime.stream((0, 20), start=stride_of(walking(60, FPS)))
     seen = [next(walker) for _ in range(30)]
     assert {frame.frames for frame in seen} == {1}

@@ -18,7 +18,9 @@ if TYPE_CHECKING:
     from motionrt.locomotion.posing import PoseSolution, solve_pose
     from motionrt.locomotion.scene import Agent, Scene
     from motionrt.locomotion.script import Script
+    from motionrt.locomotion.streaming import Stream
     from motionrt.locomotion.walk import Walk
+    from motionrt.locomotion.wishes import Wish
     from motionrt.locomotion.words import SemanticCloud, action_keypoints, load_cloud
 
 _HOMES = {
@@ -31,7 +33,9 @@ _HOMES = {
     "scene": ("Agent", "Scene"),
     "script": ("Script",),
     "crowd": ("Crowd",),
+    "streaming": ("Stream",),
     "walk": ("Walk",),
+    "wishes": ("Wish",),
     "words": ("SemanticCloud", "action_keypoints", "load_cloud"),
 }
 _HOME = {name: home for home, names in _HOMES.items() for name in names}
@@ -54,10 +58,12 @@ __all__ = [
     "Segment",
     "SemanticCloud",
     "Stand",
+    "Stream",
     "Wait",
     "Walk",
     "WalkTo",
     "Waypoints",
+    "Wish",
     "action_keypoints",
     "canonicalise",
     "load_cloud",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Generator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from motionrt.locomotion.performance import Performance
     from motionrt.locomotion.posing import PoseSolution
     from motionrt.locomotion.script import Script
+    from motionrt.locomotion.streaming import Stream
     from motionrt.locomotion.walk import Walk
     from motionrt.locomotion.words import SemanticCloud
     from motionrt.motion import Motion
@@ -143,11 +144,12 @@ class Locomotion(Service):
         speed: float = SPEED,
         foot_lock: bool = True,
         seed: int = 0,
-    ) -> Generator[Motion, Goal | None, None]:
+    ) -> Stream:
         """A character for a game's loop: one frame at 30 fps after the other, for ever.
 
         ``next`` gives the next frame, a :class:`Motion` of one; ``send(Goal(x, z, heading))`` gives it, too, on the way
-        to a new goal. At its goal the character stands until it gets another.
+        to a new goal; ``steer((vx, vz), facing)`` follows a stick. Goals may lie anywhere and change at any time. At
+        its goal the character stands until it gets another.
         """
         from motionrt.locomotion.arguments import as_goal, as_start
         from motionrt.locomotion.streaming import stream

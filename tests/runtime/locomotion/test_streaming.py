@@ -7,9 +7,8 @@ from itertools import islice
 
 import numpy as np
 import pytest
-from fake_character_models import FPS, FakeCharacterModels
+from fake_character_models import FPS, FakeCharacterModels, turns_gently
 from motions import random_motion, walking
-from scipy.spatial.transform import Rotation
 
 from motionrt.errors import InvalidInputError
 from motionrt.locomotion.bearings import facing_of
@@ -34,17 +33,6 @@ def test_it_arrives_and_stays_facing_as_told() -> None:
     np.testing.assert_allclose(roots(seen[-30:]), np.tile([3, 8], (30, 1)), atol=0.02)
     assert facing_of(seen[-1]) == pytest.approx(np.pi / 2, abs=0.05)
     assert np.linalg.norm(np.diff(roots(seen), axis=0), axis=1).max() < 0.1
-
-
-def turns_gently(frames: np.ndarray, speed: np.ndarray) -> np.ndarray:
-    """The last frame, turned towards the goal by at most 6 degrees, and moved ahead."""
-    out = frames[:, -1].astype(np.float64)
-    facing = np.arctan2(out[:, 2], out[:, 8])
-    off = np.arctan2(-out[:, 216], -out[:, 218]) - facing
-    facing = facing + np.clip((off + np.pi) % (2 * np.pi) - np.pi, -0.1, 0.1)
-    out[:, 0:9] = Rotation.from_euler("y", facing[:, None]).as_matrix().reshape(-1, 9)
-    out[:, [216, 218]] += np.stack([np.sin(facing), np.cos(facing)], axis=1) * (np.asarray(speed) / FPS)[:, None]
-    return out.astype(np.float32)
 
 
 def test_a_new_goal_takes_effect_from_the_next_frame() -> None:
