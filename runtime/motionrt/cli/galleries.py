@@ -15,6 +15,7 @@ from motionrt.cli.skipped import SOME_SKIPPED, by_reason, say_skipped
 if TYPE_CHECKING:
     from motionrt.retrieval import BuildReport, Gallery
 
+PRECISIONS = ("float32", "float16", "int8")
 BUILD = f"""index a folder of motion files, with all folders below it
 Reads {INPUTS}; each animation of a file that
 holds several is a clip of its own. How the files are read (--source-fps, --up, ...) is kept for updates.
@@ -23,6 +24,8 @@ UPDATE = """bring a gallery up to date with its folder
 Only new and changed files are read, and files that are gone are dropped."""
 VERIFY = """read a gallery in full and check every file of it against its checksum
 The exit code is 1 where something is damaged; the message names it."""
+COMPACT = """write a gallery as one segment, without what was deleted, in the layout of today
+With --precision its embeddings are stored in other bits from then on."""
 DUPLICATES = """list the clips of a gallery that show the same motion: equal files, or as long and alike
 Mirror images are not the same."""
 INFO = """show what a gallery holds, and check its files for damage"""
@@ -47,8 +50,12 @@ def add(commands: Any) -> None:
     add_reading(build)
     update = command(parts, "update", run_update, UPDATE)
     update.add_argument("gallery", type=Path, help="a gallery, or the folder that was indexed")
+    build.add_argument("--precision", choices=PRECISIONS, default="float32", help="of stored embeddings")
     for parser in (build, update):
-        parser.add_argument("--jobs", type=int, metavar="N", help="processes, of one thread each (default: at most 2)")
+        parser.add_argument("--jobs", type=int, metavar="N", help="processes, of one thread each (default: all cores)")
+    compact = command(parts, "compact", run_compact, COMPACT)
+    compact.add_argument("gallery", type=Path, help="a gallery, or the folder that was indexed")
+    compact.add_argument("--precision", choices=PRECISIONS, help="of stored embeddings (default: as it is)")
     verify = command(parts, "verify", run_verify, VERIFY)
     verify.add_argument("gallery", type=Path, help="a gallery, or the folder that was indexed")
     info = command(parts, "info", run_info, INFO)
@@ -58,7 +65,7 @@ def add(commands: Any) -> None:
     same = command(parts, "duplicates", run_duplicates, DUPLICATES)
     same.add_argument("gallery", type=Path, help="a gallery, or the folder that was indexed")
     same.add_argument("--cosine", type=float, default=0.985, metavar="C", help="how alike, at most 1 (default: 0.985)")
-    for parser in (build, update, verify, info, same):
+    for parser in (build, update, compact, verify, info, same):
         add_json(parser)
 
 
@@ -70,6 +77,7 @@ def run_build(arguments: argparse.Namespace) -> int:
         arguments.out,
         jobs=_jobs(arguments),
         progress=Progress(),
+        precision=arguments.precision,
         **reading(arguments),
     )
     return _finish(report, arguments, time.perf_counter() - started)
@@ -98,9 +106,22 @@ def run_info(arguments: argparse.Namespace) -> int:
     print(f"clips    {facts['clips']}, {facts['hours']:.2f} h, {facts['windows']} windows of 10 s")
     print(f"model    {model.name} ({model.fingerprint[:12]})")
     print(f"words    {facts['captions']} captions; attributes: {'yes' if facts['attributes'] else NO_ATTRIBUTES}")
+    print(f"stored   {facts['precision']}, {facts['segments']} {'segment' if facts['segments'] == 1 else 'segments'}")
     print(f"skipped  {len(gallery.skipped)}")
     for count, name, reason in by_reason([(skipped.path, skipped.reason) for skipped in gallery.skipped]):
         print(f"  {name}{f' and {count - 1} more' if count > 1 else ''}: {reason}")
+    return 0
+
+
+def run_compact(arguments: argparse.Namespace) -> int:
+    """``gallery compact``."""
+    from motionrt.retrieval import Gallery
+
+    gallery = Gallery.open(arguments.gallery).compact(arguments.precision)
+    if arguments.json:
+        print_json(describe(gallery))
+    else:
+        print(f"{gallery.folder}: one segment of {len(gallery)} clips, {len(gallery.windows)} windows")
     return 0
 
 
@@ -142,7 +163,9 @@ def describe(gallery: Gallery) -> dict[str, Any]:
         "source": None if gallery.source is None else str(gallery.source),
         "clips": len(gallery),
         "windows": len(gallery.windows),
-        "hours": round(sum(clip.duration_s for clip in gallery.clips) / 3600, 4),
+        "hours": round(gallery.duration_s / 3600, 4),
+        "precision": gallery.precision,
+        "segments": len(gallery.segments),
         "model": {"name": gallery.model.name, "fingerprint": gallery.model.fingerprint},
         "captions": len(gallery.captions),
         "attributes": gallery.attributes is not None,
@@ -154,10 +177,12 @@ def _finish(report: BuildReport, arguments: argparse.Namespace, seconds: float) 
     gallery = report.gallery
     counts = {name: len(getattr(report, name)) for name in ("added", "changed", "unchanged", "removed")}
     if arguments.json:
-        print_json({**describe(gallery), **counts, "seconds": round(seconds, 3)})
+        rates = {"seconds": round(seconds, 3), "indexed": report.indexed, "clips_per_s": round(report.clips_per_s, 2)}
+        print_json({**describe(gallery), **counts, **rates})
     else:
         print(f"{gallery.folder}: {len(gallery)} clips, {len(gallery.windows)} windows, in {seconds:.1f} s")
-        print(", ".join(f"{count} {name}" for name, count in counts.items()))
+        rate = f" ({report.indexed} indexed, {report.clips_per_s:.1f} clips/s)" if report.indexed else ""
+        print(", ".join(f"{count} {name}" for name, count in counts.items()) + rate)
     say_skipped([(skipped.path, in_options(skipped.reason)) for skipped in gallery.skipped])
     return SOME_SKIPPED if gallery.skipped else 0
 
@@ -165,4 +190,4 @@ def _finish(report: BuildReport, arguments: argparse.Namespace, seconds: float) 
 def _jobs(arguments: argparse.Namespace) -> int:
     from motionrt.models.threads import usable_cpus
 
-    return int(arguments.jobs) if arguments.jobs is not None else min(2, usable_cpus())
+    return int(arguments.jobs) if arguments.jobs is not None else usable_cpus()

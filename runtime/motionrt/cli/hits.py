@@ -38,13 +38,21 @@ def add_filters(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--tag", action="append", default=[], metavar="TAG", help="only clips with this tag; repeatable"
     )
+    parser.add_argument("--words", metavar="WORDS", help="only motions whose captions, tags or names have these words")
 
 
 def read_filter(arguments: argparse.Namespace) -> Filter:
     """The filter that the options ask for."""
     from motionrt.retrieval import Filter
 
-    return Filter(arguments.where, arguments.min_seconds, arguments.max_seconds, arguments.folder, tuple(arguments.tag))
+    return Filter(
+        arguments.where,
+        arguments.min_seconds,
+        arguments.max_seconds,
+        arguments.folder,
+        tuple(arguments.tag),
+        arguments.words,
+    )
 
 
 def show(hits: Sequence[Hit], gallery: Gallery, arguments: argparse.Namespace) -> None:

@@ -51,6 +51,18 @@ class MotionPack:
         roots = np.concatenate([motion.root for motion in motions])
         return cls(np.concatenate(turns), roots, starts, np.array([motion.fps for motion in motions]))
 
+    @classmethod
+    def chosen(cls, packs: Sequence[MotionPack], numbers: Sequence[int]) -> MotionPack:
+        """The motions of those numbers, counted through all packs one behind the other, as they are."""
+        places = [(pack, number) for pack in packs for number in range(len(pack))]
+        picked = [(places[n][0], slice(*places[n][0].starts[places[n][1] : places[n][1] + 2])) for n in numbers]
+        return cls(
+            np.concatenate([pack.turns[part] for pack, part in picked]),
+            np.concatenate([pack.roots[part] for pack, part in picked]),
+            np.cumsum([0, *(part.stop - part.start for _, part in picked)], dtype=np.int64),
+            np.array([places[n][0].fps[places[n][1]] for n in numbers]),
+        )
+
     def __len__(self) -> int:
         return len(self.fps)
 

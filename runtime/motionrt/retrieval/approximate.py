@@ -19,12 +19,14 @@ from motionrt.errors import MissingDependencyError
 from motionrt.motion.skeleton import FloatArray
 from motionrt.retrieval.narrow import Directions
 from motionrt.retrieval.scores import IntArray, scores, top
-from motionrt.retrieval.search import VectorIndex
+from motionrt.retrieval.search import Mask, VectorIndex
 from motionrt.retrieval.store import TEMPORARY
+from motionrt.retrieval.vectors import Vectors
 
 WORTHWHILE_FROM = 50_000  # below, the exact answer takes half a millisecond at most
 _GRAPH, _REDUCED = "HNSW32,SQ8", "PCA64,HNSW32,SQ8"  # 32 neighbours a vector, one byte a number
 _TRAINING = 50_000  # vectors that the 8-bit levels are fitted to
+_ADDED = 1 << 18  # vectors that are added at once
 _WIDEN, _LEAST = 4, 40  # how many are looked at for every one wanted: the graph's own scores are 8 bit
 _BREADTH, _MOST = 64, 2_000
 
@@ -40,7 +42,7 @@ class ApproximateIndex:
         file: where the graph is kept, named after the vectors; None keeps it in memory.
     """
 
-    def __init__(self, vectors: FloatArray, exact: VectorIndex, file: Path | None = None) -> None:
+    def __init__(self, vectors: Vectors, exact: VectorIndex, file: Path | None = None) -> None:
         self._vectors = vectors
         self._exact = exact
         self._file = file
@@ -50,7 +52,7 @@ class ApproximateIndex:
     def __len__(self) -> int:
         return len(self._vectors)
 
-    def __reduce__(self) -> tuple[type[ApproximateIndex], tuple[FloatArray, VectorIndex, Path | None]]:
+    def __reduce__(self) -> tuple[type[ApproximateIndex], tuple[Vectors, VectorIndex, Path | None]]:
         return ApproximateIndex, (self._vectors, self._exact, self._file)
 
     def prepare(self) -> None:
@@ -63,21 +65,26 @@ class ApproximateIndex:
             if self._graph is None and len(self) >= WORTHWHILE_FROM:
                 self._graph = self._opened(_faiss())
 
-    def nearest(self, query: FloatArray, k: int) -> tuple[IntArray, FloatArray]:
+    def nearest(self, query: FloatArray, k: int, allowed: Mask | None = None) -> tuple[IntArray, FloatArray]:
         """Indices and scores ``(min(k, N),)`` of vectors near to ``query`` ``(d,)``, best first.
+
+        ``allowed`` ``(N,)`` says which may be found; where that is less than half of them the answer is exact.
 
         Raises:
             MissingDependencyError: faiss-cpu is not installed.
         """
         wanted = max(_WIDEN * k, _LEAST)
-        if len(self) < WORTHWHILE_FROM or wanted > _MOST or not np.isfinite(query).all():
-            return self._exact.nearest(query, k)
+        selective = allowed is not None and 2 * np.count_nonzero(allowed) < len(self)
+        if len(self) < WORTHWHILE_FROM or wanted > _MOST or selective or not np.isfinite(query).all():
+            return self._exact.nearest(query, k, allowed)
         if self._graph is None:
             self.prepare()
         query = np.ascontiguousarray(query, dtype=np.float32)
         found = self._near(query, wanted)
+        if allowed is not None:
+            found = found[allowed[found]]
         if len(found) < k:  # an island in the graph
-            return self._exact.nearest(query, k)
+            return self._exact.nearest(query, k, allowed)
         best, values = top(scores(self._vectors[found], query), k)
         return found[best], values
 
@@ -106,12 +113,13 @@ class ApproximateIndex:
 
         By distance: for unit vectors that is the order of the cosines, and a graph of distances is the better one.
         """
-        vectors = np.ascontiguousarray(self._vectors)
+        vectors = self._vectors
         directions = Directions.of(vectors)
         kind = _REDUCED if directions is not None and directions.width == 64 else _GRAPH
         graph = faiss.index_factory(vectors.shape[1], kind, faiss.METRIC_L2)
-        graph.train(vectors[:: max(1, len(vectors) // _TRAINING)])
-        graph.add(vectors)
+        graph.train(np.ascontiguousarray(vectors[:: max(1, len(vectors) // _TRAINING)]))
+        for start in range(0, len(vectors), _ADDED):
+            graph.add(np.ascontiguousarray(vectors[start : start + _ADDED]))
         return graph
 
 

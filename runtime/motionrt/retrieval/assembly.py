@@ -1,7 +1,8 @@
-"""The work of a build: index what is new, keep what is known, write the gallery in one step."""
+"""The work of a build: index what is new, keep what is known, write what changed in one step."""
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -9,11 +10,17 @@ from pathlib import Path
 import numpy as np
 
 from motionrt.errors import GalleryError
+from motionrt.formats.folder import FoundMotions
 from motionrt.retrieval import layout
+from motionrt.retrieval.captioning import captioned
+from motionrt.retrieval.contents import Contents
 from motionrt.retrieval.gallery import Gallery
-from motionrt.retrieval.indexing import FileJob, IndexedClip, IndexedFile, OpenModel, Outcome, index_files
-from motionrt.retrieval.records import AS_THEY_ARE, ModelStamp, Reading, Skipped, window_table
-from motionrt.retrieval.sidecars import read_sidecars
+from motionrt.retrieval.growth import settled
+from motionrt.retrieval.indexing import FileJob, IndexedFile, OpenModel, Outcome, index_files
+from motionrt.retrieval.journal import Journal
+from motionrt.retrieval.known import Known
+from motionrt.retrieval.records import AS_THEY_ARE, WINDOW_TYPE, ModelStamp, Reading, Skipped
+from motionrt.retrieval.segments import Segment
 from motionrt.retrieval.windows import MotionEmbedder
 
 Progress = Callable[[int, int, str], None]
@@ -26,6 +33,8 @@ class BuildReport:
     Attributes:
         gallery: the gallery as it is on disk now; ``gallery.skipped`` lists what could not be indexed.
         added, changed, unchanged, removed: ids of clips, against the gallery that was there.
+        indexed: how many clips were read and embedded; a build that was killed had done the others before.
+        seconds: how long that took.
     """
 
     gallery: Gallery
@@ -33,19 +42,25 @@ class BuildReport:
     changed: tuple[str, ...]
     unchanged: tuple[str, ...]
     removed: tuple[str, ...]
+    indexed: int = 0
+    seconds: float = 0.0
+
+    @property
+    def clips_per_s(self) -> float:
+        """Clips that were read and embedded in a second, by all processes together."""
+        return self.indexed / self.seconds if self.seconds else 0.0
 
 
 @dataclass(frozen=True)
 class Plan:
-    """From where to where, and what is there already: clips by file (of files read in full), and all ids."""
+    """From where to where, and what is there already."""
 
     source: Path
     target: Path
-    files: list[str]
-    closed: list[Skipped]
+    found: FoundMotions
     reading: Reading = AS_THEY_ARE
-    known: dict[str, list[IndexedClip]] = field(default_factory=dict)
-    before: tuple[str, ...] = ()
+    precision: str = "float32"
+    old: Contents | None = None
 
 
 @dataclass(frozen=True)
@@ -58,92 +73,120 @@ class Workers:
     progress: Progress | None
 
 
+@dataclass
+class Work:
+    """What became of the files.
+
+    Attributes:
+        known: the clips that were indexed before.
+        journal: what was indexed now.
+        read: ids of the clips whose content is new.
+        skipped: files that could not be indexed.
+        seconds: how long indexing took.
+    """
+
+    known: Known
+    journal: Journal
+    read: list[str] = field(default_factory=list)
+    skipped: list[Skipped] = field(default_factory=list)
+    seconds: float = 0.0
+
+
 def run(plan: Plan, workers: Workers) -> BuildReport:
-    """Index what is not known, and write the gallery; the caller holds the lock of its folder."""
-    jobs = [_job(plan, name) for name in plan.files if not _same_on_disk(plan, name)]
-    outcomes = _outcomes(jobs, workers)
-    skipped = sorted([*plan.closed, *_skipped(outcomes)], key=lambda item: item.path)
-    clips = [clip for name in plan.files for clip in _clips(name, outcomes, plan.known)]
-    clips.sort(key=lambda item: item.clip.id)
-    if not clips:
+    """Index what is not known, and write what changed; the caller holds the lock of its folder."""
+    facts = _facts(plan, ModelStamp(workers.model.name, workers.model.fingerprint))
+    before = tuple(plan.old.segments) if plan.old is not None else ()
+    journal = Journal.open(plan.target, facts)
+    doubtful = [*journal.skipped, *(plan.old.skipped if plan.old is not None else ())]
+    work = Work(Known.of([*journal.left, *before], doubtful), journal)
+    _index(plan, workers, work)
+    changed, unchanged = work.known.remaining()
+    left = [part for part in changed + unchanged if part.folder == journal.folder]
+    segments = settled(
+        [part for part in changed if part.folder != journal.folder],
+        [part for part in unchanged if part.folder != journal.folder],
+        [*left, *journal.new()],
+    )
+    closed = [Skipped(*one) for one in plan.found.closed]
+    if not any(part.clip_count for part in segments):
+        first = min([*closed, *work.skipped], key=lambda item: item.path)
         raise GalleryError(
-            f"none of the {len(plan.files)} motion files in {plan.source} could be read; "
-            f"the first: {skipped[0].path}: {skipped[0].reason}"
+            f"none of the {len(plan.found.motions)} motion files in {plan.source} could be read; "
+            f"the first: {first.path}: {first.reason}"
         )
-    stamp = ModelStamp(workers.model.name, workers.model.fingerprint)
-    captions, closed = read_sidecars(plan.source, [item.clip.id for item in clips])
-    gallery = replace(_assembled(plan, clips, [*skipped, *closed], stamp), captions=captions)
-    layout.save(gallery, plan.target)
-    return _report(plan, Gallery.open(plan.target), outcomes)
+    segments, odd = captioned(segments, plan.source, plan.found.beside, plan.old)
+    skipped = sorted([*closed, *work.skipped, *odd], key=lambda item: item.path)
+    gallery = replace(facts, skipped=tuple(skipped))
+    if plan.old is None or not _same(plan.old, gallery, segments):
+        layout.save(gallery, plan.target, segments)
+    journal.close()
+    return _report(plan, work, before)
 
 
-def _job(plan: Plan, name: str) -> FileJob:
-    known = plan.known.get(name)
-    return FileJob(plan.source, name, plan.reading, known[0].clip.sha256 if known and _complete(known) else None)
-
-
-def _complete(clips: list[IndexedClip]) -> bool:
-    """Clips of an old gallery have no attributes: their files are read again."""
-    return all(item.attributes is not None for item in clips)
-
-
-def _same_on_disk(plan: Plan, name: str) -> bool:
-    known = plan.known.get(name)
-    if known is None or not _complete(known):
-        return False
-    try:
-        stat = (plan.source / name).stat()
-    except OSError:
-        return False
-    return (stat.st_size, stat.st_mtime_ns) == (known[0].clip.size, known[0].clip.mtime_ns)
-
-
-def _outcomes(jobs: list[FileJob], workers: Workers) -> dict[str, Outcome]:
-    outcomes: dict[str, Outcome] = {}
-    indexed = index_files(jobs, workers.model, workers.open_model, workers.jobs)
-    for job, outcome in zip(jobs, indexed, strict=True):
-        outcomes[job.id] = outcome
-        if workers.progress is not None:
-            workers.progress(len(outcomes), len(jobs), job.id)
-    return outcomes
-
-
-def _clips(name: str, outcomes: dict[str, Outcome], known: dict[str, list[IndexedClip]]) -> Sequence[IndexedClip]:
-    """The clips of a file as it is now: just indexed, or from before."""
-    outcome = outcomes.get(name)
-    if isinstance(outcome, IndexedFile):
-        return outcome.clips
-    before = known[name]
-    if outcome is None:
-        return before
-    return [replace(item, clip=replace(item.clip, size=outcome.size, mtime_ns=outcome.mtime_ns)) for item in before]
-
-
-def _assembled(plan: Plan, clips: list[IndexedClip], skipped: list[Skipped], stamp: ModelStamp) -> Gallery:
-    return Gallery(
-        clips=tuple(item.clip for item in clips),
-        embeddings=np.concatenate([item.embeddings for item in clips]).astype(np.float32, copy=False),
-        windows=window_table([item.spans for item in clips]),
-        model=stamp,
+def _facts(plan: Plan, model: ModelStamp) -> Contents:
+    """What is known of the gallery before its clips are."""
+    return Contents(
+        clips=(),
+        embeddings=np.zeros((0, 0), np.float32),
+        windows=np.zeros(0, WINDOW_TYPE),
+        model=model,
         source=plan.source,
-        skipped=tuple(skipped),
         reading=plan.reading,
-        attributes=np.concatenate([item.attributes for item in clips if item.attributes is not None]),
+        precision=plan.precision,
+        sidecars=plan.found.beside,
     )
 
 
-def _report(plan: Plan, gallery: Gallery, outcomes: dict[str, Outcome]) -> BuildReport:
-    files = [outcome for outcome in outcomes.values() if isinstance(outcome, IndexedFile)]
-    read = {item.clip.id for file in files for item in file.clips}
-    ids = [clip.id for clip in gallery.clips]
+def _index(plan: Plan, workers: Workers, work: Work) -> None:
+    """Read and embed the files that are not as they were."""
+    known, found = work.known, plan.found.motions
+    jobs = [
+        FileJob(plan.source, name, plan.reading, known.checksum(name))
+        for name, stamp in found.items()
+        if not known.keep(name, stamp)
+    ]
+    began = time.perf_counter()
+    indexed = index_files(jobs, workers.model, workers.open_model, workers.jobs)
+    for number, (job, outcome) in enumerate(zip(jobs, indexed, strict=True), 1):
+        _note(job.id, outcome, work)
+        if workers.progress is not None:
+            workers.progress(number, len(jobs), job.id)
+    work.seconds = time.perf_counter() - began
+
+
+def _note(file: str, outcome: Outcome, work: Work) -> None:
+    if isinstance(outcome, IndexedFile):
+        work.read += [item.clip.id for item in outcome.clips]
+        work.skipped += outcome.skipped
+        work.journal.add(outcome)
+    else:
+        work.known.touched(file, (outcome.size, outcome.mtime_ns))
+
+
+def _same(old: Contents, new: Contents, segments: Sequence[Segment]) -> bool:
+    """Whether the gallery on disk says all that there is to say."""
+    same = len(old.segments) == len(segments) and all(a is b for a, b in zip(old.segments, segments, strict=True))
+    same = same and layout.is_current(old)
+    return same and (old.skipped, dict(old.sidecars), old.source) == (new.skipped, dict(new.sidecars), new.source)
+
+
+def _report(plan: Plan, work: Work, before: Sequence[Segment]) -> BuildReport:
+    gallery = Gallery.open(plan.target)
+    ids = [name for part in gallery.segments for name in _ids(part)]
+    now, then = set(ids), dict.fromkeys(name for part in before for name in _ids(part))
+    read = set(work.read)
+    resumed = {name for part in work.journal.left for name in _ids(part)} - read
     return BuildReport(
         gallery,
-        added=tuple(name for name in ids if name not in plan.before),
-        changed=tuple(name for name in ids if name in plan.before and name in read),
-        unchanged=tuple(name for name in ids if name not in read),
-        removed=tuple(name for name in plan.before if name not in set(ids)),
+        added=tuple(sorted(name for name in ids if name not in then)),
+        changed=tuple(sorted(name for name in ids if name in then and name in read)),
+        unchanged=tuple(sorted(name for name in ids if name not in read and (name in then or name not in resumed))),
+        removed=tuple(name for name in then if name not in now),
+        indexed=len(work.read),
+        seconds=work.seconds,
     )
 
 
-def _skipped(outcomes: dict[str, Outcome]) -> list[Skipped]:
-    return [one for outcome in outcomes.values() if isinstance(outcome, IndexedFile) for one in outcome.skipped]
+def _ids(part: Segment) -> list[str]:
+    ids = part.clips.ids.texts()
+    return ids if part.kept_clips is None else [ids[number] for number in part.kept_clips.tolist()]

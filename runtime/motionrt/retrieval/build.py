@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from pathlib import Path
 
-import numpy as np
-
 from motionrt.errors import GalleryError, InvalidInputError
 from motionrt.formats import find_motions
+from motionrt.formats.folder import FoundMotions
 from motionrt.motion.checks import checked_fps
 from motionrt.retrieval.assembly import BuildReport, Plan, Progress, Workers, run
 from motionrt.retrieval.gallery import Gallery
-from motionrt.retrieval.indexing import IndexedClip, OpenModel
+from motionrt.retrieval.indexing import OpenModel
 from motionrt.retrieval.locking import writing
-from motionrt.retrieval.records import Reading, Skipped
+from motionrt.retrieval.records import Reading
+from motionrt.retrieval.sidecars import SIDECARS
 from motionrt.retrieval.store import DEFAULT_FOLDER, GALLERY_FILE
+from motionrt.retrieval.vectors import checked_precision
 from motionrt.untrusted.files import as_path
 from motionrt.untrusted.words import shown
 
@@ -35,11 +35,13 @@ def build_gallery(
     asf: str | Path | None = None,
     animation: int | str | None = None,
     progress: Progress | None = None,
+    precision: str = "float32",
 ) -> BuildReport:
     """Index every motion file below ``folder``; files that cannot be read are reported, not fatal.
 
     Each animation of a file that holds several is a clip of its own. How files are read is kept for updates. The
-    gallery replaces the one at ``out`` in one step when it is complete, and does not depend on ``jobs``.
+    gallery replaces the one at ``out`` in one step when it is complete, and does not depend on ``jobs``. What was
+    indexed is kept beside it meanwhile: a build that is killed goes on there, with the files that did not change.
 
     Args:
         folder: searched recursively, every supported format.
@@ -52,6 +54,7 @@ def build_gallery(
         asf: the skeleton of all ``.amc``, a file in ``folder`` or below it; otherwise looked for beside each.
         animation: the one to read of files that hold several, instead of each.
         progress: called with files done, files in all and the file's name.
+        precision: what embeddings are stored in: ``float32``, ``float16`` (half of the bytes) or ``int8`` (a quarter).
 
     Raises:
         MotionFileNotFoundError, InvalidInputError: no such folder, no motion file in it, ``jobs`` below 1, or an option
@@ -60,17 +63,20 @@ def build_gallery(
     """
     source = as_path(folder).resolve()
     reading = _reading(source, mapping, fps, up, asf, animation)
-    files, closed = _found(source)
+    stored = checked_precision(precision)
+    found = _found(source)
     target = as_path(out) if out is not None else source / DEFAULT_FOLDER
     workers = Workers(open_model, open_model(), _checked_jobs(jobs), progress)
     with writing(target):
-        return run(Plan(source, target, files, closed, reading), workers)
+        return run(Plan(source, target, found, reading, stored), workers)
 
 
 def update_gallery(
     path: str | Path, open_model: OpenModel, *, jobs: int = 1, progress: Progress | None = None
 ) -> BuildReport:
     """Bring a gallery up to date with its folder: only new and changed files are read, removed ones go.
+
+    What did not change is not written again, but for small segments (:mod:`motionrt.retrieval.growth`).
 
     A file is unchanged when its size and modification time are, or else its checksum. Files that were skipped
     are tried again. An ``.amc`` counts as unchanged when only its ``.asf`` changed; build again then.
@@ -83,34 +89,15 @@ def update_gallery(
     workers = Workers(open_model, open_model(), _checked_jobs(jobs), progress)
     with writing(folder):
         old = Gallery.open(folder)
-        old.verify()  # what is reused must be what was written
         if old.source is None:
             raise GalleryError(f"the gallery in {folder} was not made from files: nothing to update it from")
         old.check_model(workers.model.fingerprint, workers.model.name)
-        files, closed = _found(old.source)
-        before = tuple(clip.id for clip in old.clips)
-        return run(Plan(old.source, folder, files, closed, old.reading, _indexed(old), before), workers)
+        return run(Plan(old.source, folder, _found(old.source), old.reading, old.precision, old), workers)
 
 
-def _found(source: Path) -> tuple[list[str], list[Skipped]]:
-    """Motion files of a folder, other galleries left out, and what cannot be opened."""
-    found = find_motions(source, without=GALLERY_FILE)
-    return found.names, [Skipped(*one) for one in found.closed]
-
-
-def _indexed(gallery: Gallery) -> dict[str, list[IndexedClip]]:
-    """The clips of a gallery with their windows, by file; without files of which an animation was skipped."""
-    bounds = np.searchsorted(gallery.windows["clip"], np.arange(len(gallery) + 1))
-    clips: dict[str, list[IndexedClip]] = {}
-    for number, clip in enumerate(gallery.clips):
-        part = slice(int(bounds[number]), int(bounds[number + 1]))
-        spans = [(float(row["start_s"]), float(row["end_s"])) for row in gallery.windows[part]]
-        attributes = None if gallery.attributes is None else gallery.attributes[part]
-        clips.setdefault(clip.file, []).append(IndexedClip(clip, spans, gallery.embeddings[part], attributes))
-    for skipped in gallery.skipped:
-        for mark in re.finditer("#", skipped.path):
-            clips.pop(skipped.path[: mark.start()], None)
-    return clips
+def _found(source: Path) -> FoundMotions:
+    """Motion files and files of words below a folder; other galleries are left out."""
+    return find_motions(source, without=GALLERY_FILE, beside=SIDECARS)
 
 
 def _reading(

@@ -14,6 +14,7 @@ import sys
 from typing import TYPE_CHECKING
 
 import numpy as np
+import numpy.typing as npt
 
 from motionrt.models.engine import CPU, Providers, engine, open_session
 from motionrt.models.sessions import quiet_options
@@ -22,10 +23,12 @@ from motionrt.retrieval.codes import LEVELS, ZERO, ByteArray, CodedQuery, Codes,
 from motionrt.retrieval.narrow import Directions
 from motionrt.retrieval.scan_graph import scan_model
 from motionrt.retrieval.scores import IntArray, scores
+from motionrt.retrieval.vectors import Vectors
 
 if TYPE_CHECKING:
     from onnxruntime import InferenceSession
 
+Mask = npt.NDArray[np.bool_]
 MAX_WIDTH = 256  # one block of the scan's product
 NARROW_FROM = 50_000  # below, the directions save less than a tenth of a millisecond
 _MAX_COLUMNS, _ROWS = 4096, 16
@@ -34,13 +37,13 @@ _MAX_COLUMNS, _ROWS = 4096, 16
 class CodedScan:
     """The 8-bit copy of a set of vectors; :meth:`build` makes it. May be used from several threads."""
 
-    def __init__(self, vectors: FloatArray, directions: Directions | None, providers: Providers = CPU) -> None:
+    def __init__(self, vectors: Vectors, directions: Directions | None, providers: Providers = CPU) -> None:
         self._vectors = vectors
         self._directions, self._providers = directions, providers
         self._width = padded(vectors.shape[1] if directions is None else directions.width)
 
     @classmethod
-    def build(cls, vectors: FloatArray, providers: Providers = CPU) -> CodedScan | None:
+    def build(cls, vectors: Vectors, providers: Providers = CPU) -> CodedScan | None:
         """Code ``vectors`` ``(N, d)``, C-ordered float32; None where that cannot work, and float32 has to do.
 
         That is: more than 256 numbers a vector, numbers not finite or of extreme size, or a machine whose 8-bit
@@ -56,8 +59,11 @@ class CodedScan:
         """Bytes that are read of every vector."""
         return self._width
 
-    def candidates(self, query: FloatArray, k: int) -> IntArray | None:
-        """Ascending indices, all of the k best and all that tie with them among them; None when too many remain."""
+    def candidates(self, query: FloatArray, k: int, allowed: Mask | None = None) -> IntArray | None:
+        """Ascending indices, all of the k best and all that tie with them among them; None when too many remain.
+
+        ``allowed`` ``(N,)`` says which count, at least k; by default all.
+        """
         exact = query.astype(np.float64)
         coded = code_query(exact if self._directions is None else self._directions.query(exact))
         count = len(self._vectors)
@@ -65,10 +71,15 @@ class CodedScan:
         if coded is None or k > columns:
             return None
         scanned = _run(self._session, coded.numbers)
+        if allowed is not None:
+            scanned = np.where(allowed, scanned, np.float32(-np.inf))
         rows = count // columns
         table = scanned[: rows * columns].reshape(rows, columns)
         tops = table.max(axis=0)
-        least = _below((self._score_of_kth(table, tops, query, k) - self._error(coded)) / coded.step)
+        kth = self._score_of_kth(table, tops, query, k)
+        if kth is None:
+            return None
+        least = _below((kth - self._error(coded)) / coded.step)
         found = _at_least(table, tops, least)
         rest = np.flatnonzero(scanned[rows * columns :] >= least) + rows * columns
         return np.concatenate([found, rest]) if 4 * len(found) < count else None
@@ -80,9 +91,11 @@ class CodedScan:
             return error
         return error + self._directions.rounding(query.length, 1.01 * self._codes.longest)
 
-    def _score_of_kth(self, table: FloatArray, tops: FloatArray, query: FloatArray, k: int) -> float:
-        """The worst float32 score of k different vectors: those on top of the k best columns."""
+    def _score_of_kth(self, table: FloatArray, tops: FloatArray, query: FloatArray, k: int) -> float | None:
+        """The worst float32 score of k different vectors: those on top of the k best columns; None without so many."""
         columns = np.argpartition(tops, len(tops) - k)[len(tops) - k :]
+        if tops[columns].min() == -np.inf:
+            return None
         vectors = table[:, columns].argmax(axis=0) * len(tops) + columns
         return float(scores(self._vectors[vectors], query).min())
 

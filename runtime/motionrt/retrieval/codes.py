@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from motionrt.motion.skeleton import FloatArray
+from motionrt.retrieval.vectors import Vectors
 
 ByteArray = npt.NDArray[np.uint8]
 Narrowing = Callable[[FloatArray], FloatArray]
@@ -76,7 +77,7 @@ def padded(width: int) -> int:
     return max(16, 1 << (width - 1).bit_length())
 
 
-def code_rows(vectors: FloatArray, out: ByteArray, narrowed: Narrowing | None = None) -> Codes | None:
+def code_rows(vectors: Vectors, out: ByteArray, narrowed: Narrowing | None = None) -> Codes | None:
     """Code ``vectors`` ``(N, d)``, at least one, into ``out`` ``(N, padded)``; every row has its own scale.
 
     ``narrowed`` makes the rows that are coded out of vectors. None when one is not finite, or one is longer, or all

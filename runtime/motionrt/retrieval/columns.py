@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from motionrt.motion.attributes import ATTRIBUTES
-from motionrt.motion.skeleton import FloatArray
+from motionrt.retrieval.vectors import Vectors
 
 Array = npt.NDArray[np.float64]
 _PLACE = {name: k for k, name in enumerate(ATTRIBUTES)}
@@ -22,7 +22,7 @@ class Columns(Mapping[str, Array]):
         rows: which of them, all by default.
     """
 
-    def __init__(self, table: FloatArray, rows: npt.NDArray[np.integer] | None = None) -> None:
+    def __init__(self, table: Vectors, rows: npt.NDArray[np.integer] | None = None) -> None:
         self._table = table if rows is None else table[rows]
         self._read: dict[str, Array] = {}
 

@@ -2,24 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 
-from motionrt.errors import FormatError
 from motionrt.formats.motion_pack import MotionPack
-from motionrt.motion.skeleton import FloatArray
-from motionrt.retrieval import store
+from motionrt.retrieval import segments as parts
+from motionrt.retrieval.caption_table import CaptionTable
+from motionrt.retrieval.clip_table import ClipTable
 from motionrt.retrieval.records import AS_THEY_ARE, Caption, Clip, ModelStamp, Reading, Skipped, WindowTable
+from motionrt.retrieval.segments import Segment
+from motionrt.retrieval.vectors import Vectors
 
 
 @dataclass(frozen=True, eq=False)
 class Contents:
     """The parts of a gallery; see :class:`motionrt.retrieval.Gallery` for each of them."""
 
-    clips: tuple[Clip, ...]
-    embeddings: FloatArray
+    clips: Sequence[Clip]
+    embeddings: Vectors
     windows: WindowTable
     model: ModelStamp
     source: Path | None = None
@@ -28,9 +30,11 @@ class Contents:
     motions: MotionPack | Path | None = None
     folder: Path | None = None
     neighbours: Path | None = None
-    attributes: FloatArray | None = None
-    captions: tuple[Caption, ...] = ()
-    words_file: Path | None = None
+    attributes: Vectors | None = None
+    captions: Sequence[Caption] = ()
+    precision: str = "float32"
+    sidecars: Mapping[str, tuple[int, int]] = field(default_factory=dict)
+    stored: tuple[Segment, ...] = ()
 
     @property
     def mapping(self) -> Mapping[str, str] | None:
@@ -38,13 +42,20 @@ class Contents:
         return self.reading.mapping
 
     @cached_property
-    def pack(self) -> MotionPack | None:
+    def segments(self) -> tuple[Segment, ...]:
+        """The segments that it was read from; of a gallery in memory one."""
+        return self.stored or (self._whole(),)
+
+    @cached_property
+    def pack(self) -> MotionPack | parts.Motions | None:
         """The motions that the gallery carries, read when first needed."""
-        if not isinstance(self.motions, Path):
-            return self.motions
-        if self.folder is not None:
-            store.verify(self.folder, {"motions": self.motions.name})
-        try:
-            return MotionPack.read(self.motions)
-        except FormatError as error:
-            raise store.damaged(error.path, error.reason) from error
+        if self.stored:
+            return parts.Motions(self.stored) if all(part.pack is not None for part in self.stored) else None
+        return None if isinstance(self.motions, Path) else self.motions
+
+    def _whole(self) -> Segment:
+        clips = ClipTable.of(self.clips)
+        return Segment(
+            clips, self.windows, self.embeddings, self.attributes, CaptionTable.of(self.captions, clips.ids.texts()),
+            self.motions, neighbours=self.neighbours,
+        )  # fmt: skip

@@ -14,6 +14,7 @@ from motionrt.retrieval.columns import Columns
 
 if TYPE_CHECKING:
     from motionrt.retrieval.gallery import Gallery
+    from motionrt.retrieval.segments import Segment
     from motionrt.retrieval.where import Condition
 
 
@@ -26,6 +27,7 @@ class Filter:
         min_s, max_s: on the duration of the clip, seconds.
         folder: the clip lies below this folder of the library, as in ``"walks/slow"``.
         tags: tags that the clip has in the library's captions.
+        text: words that captions, tags or file names of the window have, all of them, whatever their endings.
 
     Raises:
         InvalidInputError: a condition that cannot be read, or durations that no clip has.
@@ -36,6 +38,7 @@ class Filter:
     max_s: float | None = None
     folder: str | None = None
     tags: Sequence[str] = ()
+    text: str | None = None
 
     def __post_init__(self) -> None:
         if self.where is not None:
@@ -44,7 +47,8 @@ class Filter:
             raise InvalidInputError(f"no clip lasts at least {self.min_s:g} s and at most {self.max_s:g} s")
 
     def __bool__(self) -> bool:
-        return any(part not in (None, (), []) for part in (self.where, self.min_s, self.max_s, self.folder, self.tags))
+        parts = (self.where, self.min_s, self.max_s, self.folder, self.tags, self.text)
+        return any(part not in (None, (), []) for part in parts)
 
     def allowed(self, gallery: Gallery) -> npt.NDArray[np.bool_]:
         """``(W,)`` which windows of a gallery may be hits.
@@ -52,8 +56,9 @@ class Filter:
         Raises:
             GalleryError: ``where`` in a gallery that has no attributes yet; the message says how to update it.
         """
-        clips = np.array([self._fits(clip.id, clip.duration_s, gallery) for clip in gallery.clips], dtype=bool)
-        allowed: npt.NDArray[np.bool_] = clips[gallery.windows["clip"]]
+        allowed: npt.NDArray[np.bool_] = np.concatenate([self._fits(part) for part in gallery.segments])
+        if self.text is not None:
+            allowed &= gallery.words.having(self.text)
         if self.where is None:
             return allowed
         if gallery.attributes is None:
@@ -64,13 +69,20 @@ class Filter:
         fits: npt.NDArray[np.bool_] = _read(self.where)(Columns(gallery.attributes))
         return np.logical_and(allowed, fits)
 
-    def _fits(self, clip: str, duration_s: float, gallery: Gallery) -> bool:
-        if (self.min_s is not None and duration_s < self.min_s) or (self.max_s is not None and duration_s > self.max_s):
-            return False
-        if self.folder is not None and not f"{clip}/".startswith(self.folder.strip("/") + "/"):
-            return False
-        wanted = {tag.lower() for tag in self.tags}
-        return not wanted or wanted <= gallery.tags.get(clip, frozenset())
+    def _fits(self, part: Segment) -> npt.NDArray[np.bool_]:
+        """Which windows of a segment, of those that count, are of clips that fit."""
+        clips = np.ones(len(part.clips), dtype=bool)
+        if self.min_s is not None:
+            clips &= part.clips.duration_s >= self.min_s
+        if self.max_s is not None:
+            clips &= part.clips.duration_s <= self.max_s
+        if self.folder is not None:
+            clips &= part.clips.below(self.folder)
+        for tag in self.tags:
+            clips &= part.captions.tagged_with(tag, len(clips))
+        owners = part.windows["clip"]
+        found: npt.NDArray[np.bool_] = clips[owners if part.kept_windows is None else owners[part.kept_windows]]
+        return found
 
 
 def _read(where: str) -> Condition:

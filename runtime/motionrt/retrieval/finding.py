@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 _WIDE, _TIMES = 200, 10  # windows that are looked at closely: at least, and for every hit that is wanted
 _BY_WORDS = 100  # windows that their words bring in
+_ALL = 10_000  # windows that pass a filter, up to which all are looked at closely
 
 
 class Hits(list[Hit]):
@@ -95,7 +96,7 @@ def find(gallery: Gallery, text: str, query: FloatArray, search: Search) -> Hits
     """The best hits for a text and its embedding ``(256,)``.
 
     The windows that are nearest by embedding, or share words with the text, are ranked by cosine, attributes and words
-    together; in a gallery of up to 200 windows, and behind a filter, those are all.
+    together; in a gallery of up to 200 windows, and behind a filter that lets 10,000 or fewer pass, those are all.
     """
     k, weights = checked_k(search.k), search.weights
     unknown = unknown_words(text, gallery.words) if search.weights.words and not search.anyway else ()
@@ -132,14 +133,14 @@ def _candidates(
     words: npt.NDArray[np.float32] | None,
 ) -> tuple[IntArray, FloatArray]:
     """Windows that are looked at closely, ascending, and their cosines."""
-    if allowed is not None:
+    if allowed is not None and np.count_nonzero(allowed) <= _ALL:
         rows = np.flatnonzero(allowed)
     else:
-        rows = gallery.nearest(query, max(_WIDE, _TIMES * search.k), approximate=search.approximate)
+        count = max(_WIDE, _TIMES * search.k)
+        rows = gallery.nearest(query, count, approximate=search.approximate, allowed=allowed)
         if words is not None:
-            chosen = np.zeros(len(words), dtype=bool)
-            chosen[rows] = chosen[_best(words)] = True
-            rows = np.flatnonzero(chosen)
+            shared = words if allowed is None else np.where(allowed, words, np.float32(0))
+            rows = np.union1d(rows, _best(shared))
     rows = np.sort(rows)
     return rows, scores(np.ascontiguousarray(gallery.embeddings[rows]), np.ascontiguousarray(query, dtype=np.float32))
 

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, fields
 from functools import cached_property
 from itertools import islice
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -16,20 +15,20 @@ from motionrt.formats.motion_pack import MotionPack
 from motionrt.models.engine import Providers
 from motionrt.motion import Motion
 from motionrt.motion.skeleton import FloatArray
-from motionrt.retrieval import layout, store
+from motionrt.retrieval import editing, layout, store
 from motionrt.retrieval.contents import Contents
+from motionrt.retrieval.joined_index import JoinedIndex
 from motionrt.retrieval.locking import writing
 from motionrt.retrieval.records import Clip, ModelStamp, window_table
 from motionrt.retrieval.scores import IntArray
-from motionrt.retrieval.search import ExactIndex, Hit, checked_k, nearest_per_group
+from motionrt.retrieval.search import ExactIndex, Hit, Mask, VectorIndex, checked_k, nearest_per_group
+from motionrt.retrieval.segments import words_of
+from motionrt.retrieval.vectors import Block, Blocks
 from motionrt.retrieval.windows import MotionEmbedder, embed_windows, measured, motion_features, spans_in_seconds
 from motionrt.retrieval.words import WordIndex
 from motionrt.untrusted.arguments import check_flags, check_kind, checked_array, checked_whole, listed
 from motionrt.untrusted.files import as_path
 from motionrt.untrusted.words import shown
-
-if TYPE_CHECKING:
-    from motionrt.retrieval.approximate import ApproximateIndex
 
 _UPDATE = "motionrt gallery update"
 
@@ -39,8 +38,10 @@ class Gallery(Contents):
     """Clips, and the embeddings of their windows (10 s long, every 5 s; a shorter clip is one window).
 
     Attributes:
-        clips: ``N`` clips, ordered by id.
-        embeddings: ``(W, 256)`` float32 unit vectors, memory-mapped when opened from disk.
+        clips: ``N`` clips, a sequence; ordered by id in a gallery that was built or compacted, and after updates within
+            each segment.
+        embeddings: ``(W, 256)`` float32 unit vectors, memory-mapped when opened from disk. Those of a gallery of
+            several segments, or of fewer bits, behave as such an array and are read where they are asked for.
         windows: ``(W,)`` records of clip number, ``start_s`` and ``end_s``, in the order of the clips.
         model: which model made the embeddings; only the same model may search them.
         source: the folder that was indexed, ``None`` when the clips are not files.
@@ -53,6 +54,9 @@ class Gallery(Contents):
         attributes: ``(W, A)`` float32, what each window does (:data:`motionrt.motion.attributes.ATTRIBUTES`), ``None``
             in a gallery of an older motionrt until it is updated.
         captions: words that the library carries about its clips.
+        precision: what embeddings are stored in: ``float32``, ``float16`` or ``int8``.
+        sidecars: size and time of the files that the captions were read from.
+        stored: the segments that it was read from, none in memory; :attr:`segments` gives those of any gallery.
     """
 
     providers: Providers | None = None
@@ -131,6 +135,46 @@ class Gallery(Contents):
             layout.save(self, folder)
         return Gallery.open(folder)
 
+    def append(self, other: Gallery) -> Gallery:
+        """Add the clips of another gallery, with new ids, to this one's folder; returns it as it is there now.
+
+        Raises:
+            InvalidInputError: an id is taken, only one of the two carries its motions, or this gallery has no folder.
+            GalleryError: another model embedded them, the folder cannot be written, or another process writes there.
+        """
+        editing.append(self._own_folder(), other)
+        return Gallery.open(self._own_folder(), providers=self.providers)
+
+    def delete(self, ids: Iterable[str]) -> Gallery:
+        """Take clips out of this gallery's folder, though not their files; returns it as it is there now.
+
+        The next update of a gallery that was made from files finds them again, unless the files are gone.
+
+        Raises:
+            InvalidInputError: no such clip, none would be left, or this gallery has no folder.
+            GalleryError: the folder cannot be written, or another process writes there.
+        """
+        editing.delete(self._own_folder(), ids)
+        return Gallery.open(self._own_folder(), providers=self.providers)
+
+    def compact(self, precision: str | None = None) -> Gallery:
+        """Write this gallery's folder as one segment, which drops what was deleted; returns it as it is there now.
+
+        Args:
+            precision: store embeddings in ``float32``, ``float16`` or ``int8`` from now on, by default as they are.
+
+        Raises:
+            InvalidInputError: no such precision, or this gallery has no folder.
+            GalleryError: a file is damaged, the folder cannot be written, or another process writes there.
+        """
+        editing.compact(self._own_folder(), precision)
+        return Gallery.open(self._own_folder(), providers=self.providers)
+
+    def _own_folder(self) -> Path:
+        if self.folder is None:
+            raise InvalidInputError("this gallery is in memory: save it first")
+        return self.folder
+
     def verify(self) -> None:
         """Read the gallery's files in full and check their checksums; GalleryError names a damaged one."""
         if self.folder is not None:
@@ -206,6 +250,15 @@ class Gallery(Contents):
         except MotionRTError as error:
             return page(f"{name}: {error}")
 
+    def own(self, motion: str | Path) -> str | None:
+        """The id of the clip of that id (``str``) or that file (``Path``); None where it is none of the gallery's."""
+        name = str(motion)
+        if isinstance(motion, Path):
+            if self.source is None or not motion.is_relative_to(self.source):
+                return None
+            name = motion.relative_to(self.source).as_posix()
+        return None if self._number(name) is None else name
+
     def path(self, clip: Clip) -> Path | None:
         """The clip's file, ``None`` when it has none."""
         return self.source / clip.file if self.source is not None and clip.is_file else None
@@ -220,9 +273,10 @@ class Gallery(Contents):
             MotionFileNotFoundError, FormatError: the clip's file is gone, or broken now.
         """
         clip_id = hit if isinstance(hit, str) else getattr(hit, "id", hit)
-        if not isinstance(clip_id, str) or clip_id not in self._numbers:
+        number = self._number(clip_id) if isinstance(clip_id, str) else None
+        if number is None:
             raise InvalidInputError(f"no clip {shown(clip_id)} in this gallery")
-        motion = self._load(self._numbers[clip_id])
+        motion = self._load(number)
         return motion if isinstance(hit, str) else motion.between(hit.start_s, hit.end_s)
 
     def _build_command(self) -> str:
@@ -251,8 +305,16 @@ class Gallery(Contents):
         if not inside and path.is_file() and store.digest(path) != clip.sha256:
             raise GalleryError(f"{path} is not the file that was indexed; bring the gallery up to date: {_UPDATE}")
 
-    def nearest(self, query: FloatArray, count: int, *, approximate: bool = False) -> IntArray:
+    def nearest(
+        self, query: FloatArray, count: int, *, approximate: bool = False, allowed: Mask | None = None
+    ) -> IntArray:
         """The ``count`` windows nearest to a unit vector ``(256,)``, best first, or all there are.
+
+        Args:
+            query: an embedding by the gallery's model.
+            count: how many, at least 1.
+            approximate: see :meth:`search`.
+            allowed: ``(W,)`` which windows may be found, by default all.
 
         Raises:
             InvalidInputError: a query of another shape or not finite.
@@ -262,7 +324,7 @@ class Gallery(Contents):
         count, query = checked_whole(count, "count", 1), _as_query(query)
         if query.shape != self.embeddings.shape[1:]:
             raise InvalidInputError(f"a query is a vector of {self.embeddings.shape[1]}, not {query.shape}")
-        return (self._approximate if approximate else self._exact).nearest(query, count)[0]
+        return (self._approximate if approximate else self._exact).nearest(query, count, allowed)[0]
 
     def hit(
         self, rank: int, window: int, score: float, cosine: float | None = None, agreement: float | None = None
@@ -273,11 +335,16 @@ class Gallery(Contents):
         start, end = float(row["start_s"]), float(row["end_s"])
         return Hit(rank, score, clip.id, self.path(clip), start, end, clip.text, cosine, agreement)
 
+    @property
+    def duration_s(self) -> float:
+        """How long all clips last together, seconds."""
+        kept = [(part.clips.duration_s, part.kept_clips) for part in self.segments]
+        return float(sum((seconds if some is None else seconds[some]).sum() for seconds, some in kept))
+
     @cached_property
     def words(self) -> WordIndex:
         """The words of captions, texts and file names; read, or found, when first needed."""
-        kept = WordIndex.read(self.words_file, len(self.windows)) if self.words_file is not None else None
-        return kept or WordIndex.of(self.clips, self.windows, self.captions)
+        return words_of(self.segments)
 
     @cached_property
     def tags(self) -> dict[str, frozenset[str]]:
@@ -289,19 +356,37 @@ class Gallery(Contents):
         return found
 
     @cached_property
-    def _exact(self) -> ExactIndex:
-        layout.check_embeddings(self)
-        return ExactIndex(self.embeddings, providers=self.providers)
+    def _exact(self) -> VectorIndex:
+        layout.check_for_search(self)
+        return self._index(lambda block: ExactIndex(block.vectors, providers=self.providers))
 
     @cached_property
-    def _approximate(self) -> ApproximateIndex:
+    def _approximate(self) -> VectorIndex:
         from motionrt.retrieval.approximate import ApproximateIndex
 
-        return ApproximateIndex(self.embeddings, self._exact, self.neighbours)
+        exact = self._exact
+        parts = iter(exact.indexes if isinstance(exact, JoinedIndex) else [exact])
+        return self._index(lambda block: ApproximateIndex(block.vectors, next(parts), block.neighbours))
 
-    @cached_property
-    def _numbers(self) -> dict[str, int]:
-        return {clip.id: number for number, clip in enumerate(self.clips)}
+    def _index(self, make: Callable[[Block], VectorIndex]) -> VectorIndex:
+        """An index of the embeddings, made of those of their blocks."""
+        if isinstance(self.embeddings, Blocks):
+            return JoinedIndex(self.embeddings.blocks, make)
+        return make(Block(self.embeddings, neighbours=self.neighbours))
+
+    def _number(self, clip_id: str) -> int | None:
+        """The number of a clip."""
+        first = 0
+        for part in self.segments:
+            number = part.clips.number(clip_id)
+            if number is not None and part.kept_clips is not None:
+                place = int(np.searchsorted(part.kept_clips, number))
+                kept = place < len(part.kept_clips) and part.kept_clips[place] == number
+                number = place if kept else None
+            if number is not None:
+                return first + number
+            first += part.clip_count
+        return None
 
 
 def _as_query(query: object) -> FloatArray:

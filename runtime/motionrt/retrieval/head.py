@@ -7,7 +7,7 @@ import json
 import math
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import fields
+from dataclasses import dataclass, fields
 from pathlib import PurePath, PurePosixPath
 from typing import Any, TypeVar
 
@@ -16,9 +16,23 @@ from motionrt.untrusted import Fail, json_text
 from motionrt.untrusted.words import shown
 
 T = TypeVar("T", Caption, Clip, ModelStamp, Reading, Skipped)
-ROLES = {"embeddings": ".npy", "windows": ".npy", "attributes": ".npy", "words": ".npz", "motions": ".npz"}
+OLD_ROLES = {"embeddings": ".npy", "windows": ".npy", "attributes": ".npy", "words": ".npz", "motions": ".npz"}
+ROLES = {
+    **dict.fromkeys(("clips", "embeddings", "attributes", "captions", "words", "deleted"), ".safetensors"),
+    "motions": ".npz",
+}
 _SEAL = re.compile(rb'\{\n "checksum": "([0-9a-f]{64})",\n')
-_LONGEST_S = 1e9  # seconds of a clip
+LONGEST_S = 1e9  # seconds of a clip
+SHA256 = re.compile(r"[0-9a-f]{64}", re.ASCII)
+
+
+@dataclass(frozen=True)
+class SegmentHead:
+    """What the head says of a segment: how many clips and windows, and its files by role."""
+
+    clips: int
+    windows: int
+    files: dict[str, str]
 
 
 def sealed(head: Mapping[str, Any]) -> bytes:
@@ -41,14 +55,43 @@ def check_seal(content: bytes, head: Mapping[str, Any], fail: Fail) -> None:
 
 
 def array_files(content: object, fail: Fail) -> dict[str, str]:
-    """The names of the arrays by role, each a plain name with a checksum in it."""
-    if not isinstance(content, dict) or not {"embeddings", "windows"} <= content.keys() <= ROLES.keys():
+    """The names of the arrays of version 1 by role, each a plain name with a checksum in it."""
+    return _files(content, {"embeddings", "windows"}, OLD_ROLES, fail)
+
+
+def segments_of(content: object, fail: Fail) -> list[SegmentHead]:
+    """What it says of its segments: the numbers of clips and windows, and the names of the files by role."""
+    if not isinstance(content, list) or not content:
+        raise fail(f"its segments are {shown(content)}", None)
+    return [_segment(row, fail) for row in content]
+
+
+def _segment(row: object, fail: Fail) -> SegmentHead:
+    if not isinstance(row, dict) or set(row) != {"clips", "windows", "files"}:
+        raise fail(f"{shown(row)} is no segment", None)
+    if not all(type(row[name]) is int and 0 < row[name] < 2**31 for name in ("clips", "windows")):
+        raise fail(f"{shown(row)} is no segment", None)
+    return SegmentHead(row["clips"], row["windows"], _files(row["files"], {"clips", "embeddings"}, ROLES, fail))
+
+
+def _files(content: object, needed: set[str], roles: Mapping[str, str], fail: Fail) -> dict[str, str]:
+    if not isinstance(content, dict) or not needed <= content.keys() <= roles.keys():
         raise fail(f"its files are {shown(content)}", None)
     for role, name in content.items():
-        pattern = rf"{role}-[0-9a-f]{{16}}\{ROLES[role]}"
+        pattern = rf"{role}-[0-9a-f]{{16}}\{roles[role]}"
         if not isinstance(name, str) or not re.fullmatch(pattern, name, re.ASCII):
             raise fail(f"{shown(name)} is no name of its file of {role}", None)
     return dict(content)
+
+
+def sidecars_of(content: object, fail: Fail) -> dict[str, tuple[int, int]]:
+    """Size and time of the sidecars that were read, by path."""
+    if not isinstance(content, dict):
+        raise fail(f"its sidecars are {shown(content)}", None)
+    for stamp in content.values():
+        if not isinstance(stamp, list) or len(stamp) != 2 or not all(type(number) is int for number in stamp):
+            raise fail(f"the stamp of a sidecar is {shown(stamp)}", None)
+    return {str(name): (stamp[0], stamp[1]) for name, stamp in content.items()}
 
 
 def clips_of(content: object, fail: Fail) -> tuple[Clip, ...]:
@@ -57,7 +100,7 @@ def clips_of(content: object, fail: Fail) -> tuple[Clip, ...]:
     if len({clip.id for clip in clips}) < len(clips):
         raise fail("two of its clips have the same id", None)
     for clip in clips:
-        if not (0 <= clip.duration_s < _LONGEST_S and clip.size >= 0):
+        if not (0 <= clip.duration_s < LONGEST_S and clip.size >= 0):
             raise fail(f"the clip {shown(clip.id)} has an impossible length or size", None)
         if clip.is_file and not stays_below(clip.file):
             raise fail(f"the clip {shown(clip.id)} names a file outside the indexed folder", None)

@@ -1,41 +1,52 @@
-"""Between the :class:`~motionrt.retrieval.contents.Contents` of a gallery and what its folder holds."""
+"""Between the :class:`~motionrt.retrieval.contents.Contents` of a gallery and what its folder holds; docs/scale.md."""
 
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict
-from functools import partial
 from pathlib import Path
-from typing import IO, Any
+from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from motionrt.motion.attributes import ATTRIBUTES
-from motionrt.motion.skeleton import FloatArray
+from motionrt.retrieval import segments as parts
 from motionrt.retrieval import store
+from motionrt.retrieval.column_file import Array, Pieces, column_writer
 from motionrt.retrieval.contents import Contents
-from motionrt.retrieval.head import array_files, captions_of, clips_of, model_of, reading_of, skipped_of, source_of
-from motionrt.retrieval.records import WINDOW_TYPE, Clip, WindowTable
-from motionrt.retrieval.words import WordIndex
+from motionrt.retrieval.first_layout import read_first
+from motionrt.retrieval.head import model_of, reading_of, segments_of, sidecars_of, skipped_of, source_of
+from motionrt.retrieval.reading import read_segment
+from motionrt.retrieval.segments import CHECKED_AT_OPEN, CHECKED_AT_SEARCH, Segment
+from motionrt.retrieval.vectors import PRECISIONS, Packed, Vectors, chunks, coded, scales_of
+from motionrt.retrieval.words import Postings
+from motionrt.untrusted import Fail
+from motionrt.untrusted.words import shown
 
-_CHECKED = 256 * 2**20  # bytes of embeddings that are checked at the first search
+Table = tuple[Mapping[str, Array | Pieces], Mapping[str, str]]
+"""Columns of a file, and its metadata."""
 
 
-def save(gallery: Contents, folder: Path) -> None:
-    """Write the gallery's files; the caller holds the folder's lock."""
-    arrays: dict[str, tuple[str, store.Writer]] = {
-        "embeddings": (".npy", partial(_write_npy, array=gallery.embeddings)),
-        "windows": (".npy", partial(_write_npy, array=gallery.windows)),
-    }
-    if gallery.attributes is not None:
-        arrays["attributes"] = (".npy", partial(_write_npy, array=gallery.attributes))
-    words = WordIndex.of(gallery.clips, gallery.windows, gallery.captions)
-    arrays["words"] = (".npz", words.write)
-    pack = gallery.pack
-    if pack is not None:
-        arrays["motions"] = (".npz", pack.write)
-    store.write(folder, _head(gallery, folder), arrays)
+def save(gallery: Contents, folder: Path, segments: Sequence[Segment] | None = None) -> None:
+    """Write the gallery's files; the caller holds the folder's lock.
+
+    Args:
+        gallery: whose facts are written.
+        folder: where to.
+        segments: those that the gallery has from now on, by default its own. What they have in the folder already is
+            left as it is.
+    """
+    kept = [part for part in (gallery.segments if segments is None else segments) if part.clip_count]
+    with store.writing_to(folder) as disk:
+        written = [_written(disk, part, gallery.precision, folder) for part in kept]
+        rows = [
+            {"clips": len(part.clips), "windows": len(part.windows), "files": files}
+            for part, files in zip(kept, written, strict=True)
+        ]
+        disk.commit(
+            {**_facts(gallery, folder), "segments": rows}, {name for files in written for name in files.values()}
+        )
 
 
 def read(folder: Path) -> Contents:
@@ -50,87 +61,64 @@ def read(folder: Path) -> Contents:
         raise store.damaged(folder, f"no file {error.filename}") from error
 
 
-def verify(folder: Path) -> dict[str, str]:
-    """Check every array of a gallery against its checksum, and what the motions say; returns the files by role."""
-    head = store.read_head(folder)
-    files = array_files(head.get("files"), store.fails(folder / store.GALLERY_FILE))
-    store.verify(folder, files)
-    contents = _assembled(folder, head)
-    if contents.pack is not None and len(contents.pack) != len(contents.clips):
-        raise store.damaged(folder, "it holds another number of motions than of clips")
-    return files
+def verify(folder: Path) -> None:
+    """Check every file of a gallery against its checksum, and what the motions say."""
+    contents = _assembled(folder, store.read_head(folder))
+    for part in contents.segments:
+        store.verify(folder, dict(part.files))
+        if part.pack is not None and len(part.pack) != len(part.clips):
+            raise store.damaged(folder, "it holds another number of motions than of clips")
 
 
-def check_embeddings(contents: Contents) -> None:
-    """GalleryError if the embeddings on disk are damaged; those beyond 256 MiB are left to :func:`verify`."""
-    mapped = contents.embeddings.base
-    if not isinstance(mapped, np.memmap) or contents.folder is None or contents.embeddings.nbytes > _CHECKED:
-        return
-    name = Path(str(mapped.filename)).name
-    if (contents.folder / name).is_file():  # otherwise another process has replaced the gallery: this one is mapped
-        store.verify(contents.folder, {"embeddings": name})
+def is_current(contents: Contents) -> bool:
+    """Whether a gallery on disk has the layout of today."""
+    return all("windows" not in part.files for part in contents.segments)
+
+
+def check_for_search(contents: Contents) -> None:
+    """GalleryError if a part is damaged that a search needs; those beyond 256 MiB are left to :func:`verify`."""
+    for part in contents.segments:
+        part.check(CHECKED_AT_SEARCH)
 
 
 def _assembled(folder: Path, head: dict[str, Any]) -> Contents:
-    contents = _read(folder, head)
-    _check(contents.embeddings, contents.windows, len(contents.clips), folder)
-    found = contents.attributes
-    if found is not None and (found.shape != (len(contents.windows), len(ATTRIBUTES)) or found.dtype.kind != "f"):
-        raise store.damaged(folder, "windows and attributes do not fit together")
-    return contents
-
-
-def _read(folder: Path, head: dict[str, Any]) -> Contents:
     fail = store.fails(folder / store.GALLERY_FILE)
-    files = array_files(head.get("files"), fail)
-    if (folder / files["windows"]).is_file():  # small; the others are checked when they are first used
-        store.verify(folder, {"windows": files["windows"]})
+    first = head["version"] == store.OLDEST
+    found = (
+        [read_first(folder, head)]
+        if first
+        else [read_segment(folder, h) for h in segments_of(head.get("segments"), fail)]
+    )
+    for part in found:
+        part.check(CHECKED_AT_OPEN)
+    if len({part.vectors.shape[1] for part in found}) > 1:
+        raise store.damaged(folder, "its segments have vectors of different widths")
     return Contents(
-        clips=clips_of(head.get("clips"), fail),
-        embeddings=store.read_array(folder, files["embeddings"]),
-        windows=store.read_array(folder, files["windows"]),
+        clips=parts.clips_of(found),
+        embeddings=parts.embeddings_of(found),
+        windows=parts.windows_of(found),
         model=model_of(head.get("model"), fail),
         source=_source(folder, source_of(head.get("source"), fail)),
         skipped=skipped_of(head.get("skipped"), fail),
         reading=reading_of(head.get("mapping"), head.get("reading", {}), fail),
-        motions=folder / files["motions"] if "motions" in files else None,
+        motions=found[0].motions,
         folder=folder,
-        neighbours=folder / store.neighbours_name(files["embeddings"]),
-        attributes=_attributes(folder, head, files),
-        words_file=folder / files["words"] if "words" in files else None,
-        captions=captions_of(head.get("captions", []), fail),
+        neighbours=found[0].neighbours,
+        attributes=parts.attributes_of(found),
+        captions=parts.captions_of(found),
+        precision=_precision(head.get("precision", "float32"), fail),
+        sidecars=sidecars_of(head.get("sidecars", {}), fail),
+        stored=tuple(found),
     )
 
 
-def _attributes(folder: Path, head: dict[str, Any], files: dict[str, str]) -> FloatArray | None:
-    """Attributes ``(W, A)``; None of a gallery that has none, or those of another version of motionrt."""
-    if head.get("attributes") != list(ATTRIBUTES) or "attributes" not in files:
-        return None
-    return store.read_array(folder, files["attributes"])
+def _precision(told: object, fail: Fail) -> str:
+    if told not in PRECISIONS:
+        raise fail(f"its precision is {shown(told)}", None)
+    return str(told)
 
 
-def _check(embeddings: FloatArray, windows: WindowTable, clips: int, folder: Path) -> None:
-    """GalleryError unless every clip has windows, in order, and every window an embedding."""
-    if embeddings.dtype != np.float32 or embeddings.ndim != 2 or windows.dtype != WINDOW_TYPE:
-        raise store.damaged(folder, "an array has the wrong type")
-    if windows.ndim != 1 or len(embeddings) != len(windows) or not clips:
-        raise store.damaged(folder, "clips, windows and embeddings do not fit together")
-    owners, start, end = windows["clip"], windows["start_s"], windows["end_s"]
-    if (np.diff(owners) < 0).any() or not _all_named(owners, clips):
-        raise store.damaged(folder, "clips, windows and embeddings do not fit together")
-    with np.errstate(invalid="ignore"):
-        if not ((start >= 0) & (start <= end) & (end < np.inf)).all():
-            raise store.damaged(folder, "a window has no beginning or no end")
-
-
-def _all_named(owners: npt.NDArray[np.integer[Any]], clips: int) -> bool:
-    """Whether these are the numbers of all clips and no others; `np.unique` would import numpy.ma, 10 ms of a start."""
-    if len(owners) and (owners.min() < 0 or owners.max() >= clips):
-        return False
-    return bool(np.bincount(owners, minlength=clips).all())
-
-
-def _head(gallery: Contents, folder: Path) -> dict[str, Any]:
+def _facts(gallery: Contents, folder: Path) -> dict[str, Any]:
     options = {
         name: value for name, value in asdict(gallery.reading).items() if name != "mapping" and value is not None
     }
@@ -139,16 +127,56 @@ def _head(gallery: Contents, folder: Path) -> dict[str, Any]:
         "source": _noted_source(gallery.source, folder),
         "mapping": dict(gallery.mapping) if gallery.mapping else None,
         **({"reading": options} if options else {}),
-        "clips": [_clip(clip) for clip in gallery.clips],
+        "precision": gallery.precision,
+        "sidecars": {name: list(stamp) for name, stamp in gallery.sidecars.items()},
         "skipped": [asdict(skipped) for skipped in gallery.skipped],
-        **({} if gallery.attributes is None else {"attributes": list(ATTRIBUTES)}),
-        **({"captions": [asdict(caption) for caption in gallery.captions]} if gallery.captions else {}),
     }
 
 
-def _clip(clip: Clip) -> dict[str, Any]:
-    values = asdict(clip)
-    return values if clip.animation is not None else {name: values[name] for name in values if name != "animation"}
+def _written(disk: store.Writing, part: Segment, precision: str, folder: Path) -> dict[str, str]:
+    """The segment's files by role: those that are there, and now those that were not."""
+    files = dict(part.files) if part.folder == folder and "windows" not in part.files else {}
+    if not files:
+        part.check(None, *part.files)  # what is copied must be what was written
+    for role, (columns, told) in _tables(part, precision, set(files)).items():
+        files[role] = disk.part(role, ".safetensors", column_writer(columns, told))
+    if part.pack is not None and "motions" not in files:
+        files["motions"] = disk.part("motions", ".npz", part.pack.write)
+    return files
+
+
+def _tables(part: Segment, precision: str, there: set[str]) -> dict[str, Table]:
+    """Columns and metadata of the files by role, but for those that are there already."""
+    tables: dict[str, Table] = {}
+    if "clips" not in there:
+        tables["clips"] = part.clips.columns(part.windows), {"ordered": "yes" if part.clips.ordered else "no"}
+    if "embeddings" not in there:
+        tables["embeddings"] = _embeddings(part.vectors, precision), {"precision": precision}
+    if "attributes" not in there and part.attributes is not None:
+        tables["attributes"] = (
+            {"attributes": np.asarray(part.attributes, np.float32).T},
+            {"names": " ".join(ATTRIBUTES)},
+        )
+    if "captions" not in there and len(part.captions):
+        tables["captions"] = part.captions.columns(), {}
+    if "words" not in there:
+        words = part.postings or Postings.of(part.clips, part.windows, part.captions)
+        tables["words"] = words.columns(), {}
+    if "deleted" not in there and len(part.deleted):
+        tables["deleted"] = {"clips": part.deleted.astype(np.uint32)}, {}
+    return tables
+
+
+def _embeddings(vectors: Vectors, precision: str) -> Mapping[str, Array | Pieces]:
+    if isinstance(vectors, Packed) and vectors.precision == precision:
+        return {"vectors": vectors.numbers} | ({} if vectors.scales is None else {"scales": vectors.scales})
+    kind = np.dtype(precision)
+    if precision != "int8":
+        return {"vectors": Pieces(kind, vectors.shape, lambda: (piece.astype(kind) for piece in chunks(vectors)))}
+    scales = np.concatenate([scales_of(piece) for piece in chunks(vectors)])
+    ends = np.cumsum([0, *(len(piece) for piece in chunks(vectors))])
+    numbers = (coded(piece, scales[a : a + len(piece)]) for a, piece in zip(ends, chunks(vectors), strict=False))
+    return {"vectors": Pieces(kind, vectors.shape, lambda: numbers), "scales": scales}
 
 
 def _noted_source(source: Path | None, folder: Path) -> str | None:
@@ -163,7 +191,3 @@ def _noted_source(source: Path | None, folder: Path) -> str | None:
 
 def _source(folder: Path, noted: str | None) -> Path | None:
     return None if noted is None else Path(os.path.normpath(folder.absolute() / noted))
-
-
-def _write_npy(file: IO[bytes], array: npt.NDArray[Any]) -> None:
-    np.lib.format.write_array(file, np.ascontiguousarray(array), allow_pickle=False)

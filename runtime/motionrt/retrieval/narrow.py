@@ -15,6 +15,7 @@ import numpy.typing as npt
 
 from motionrt.motion.skeleton import FloatArray
 from motionrt.retrieval.codes import LONGEST, ROUNDING
+from motionrt.retrieval.vectors import Vectors
 
 WIDTHS = (64, 128)
 _SAMPLE = 4096
@@ -34,7 +35,7 @@ class Directions:
     skew: float
 
     @classmethod
-    def of(cls, vectors: FloatArray) -> Directions | None:
+    def of(cls, vectors: Vectors) -> Directions | None:
         """The directions that a sample of ``vectors`` ``(N, d)`` hardly leaves; None when there are none so few."""
         sample = np.ascontiguousarray(vectors[:: max(1, len(vectors) // _SAMPLE)])
         if not np.abs(sample).max(initial=0.0) < LONGEST:

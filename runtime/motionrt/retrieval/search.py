@@ -15,6 +15,7 @@ from motionrt.errors import InvalidInputError
 from motionrt.models.engine import Providers, checked_providers
 from motionrt.motion.skeleton import FloatArray
 from motionrt.retrieval.scores import IntArray, scores, top
+from motionrt.retrieval.vectors import Stored, Vectors
 from motionrt.untrusted.arguments import checked_whole
 from motionrt.untrusted.words import shown
 
@@ -23,6 +24,9 @@ if TYPE_CHECKING:
 
 CODED_FROM = 4_000  # below, the float32 scan is as fast
 CODED_LATE_FROM = 20_000  # from here the copy takes more than 20 ms
+SELECTIVE = 64  # where fewer than one in so many vectors may be found, those are compared alone
+
+Mask = npt.NDArray[np.bool_]
 
 
 @dataclass(frozen=True, repr=False)
@@ -61,8 +65,14 @@ class VectorIndex(Protocol):
 
     def __len__(self) -> int: ...
 
-    def nearest(self, query: FloatArray, k: int) -> tuple[IntArray, FloatArray]:
-        """Indices and scores of the ``min(k, N)`` vectors nearest to ``query`` ``(d,)``, best first."""
+    def prepare(self) -> None:
+        """Get ready for many queries now."""
+
+    def nearest(self, query: FloatArray, k: int, allowed: Mask | None = None) -> tuple[IntArray, FloatArray]:
+        """Indices and scores of the ``min(k, N)`` vectors nearest to ``query`` ``(d,)``, best first.
+
+        ``allowed`` ``(N,)`` says which may be found, by default all.
+        """
 
 
 class ExactIndex:
@@ -76,12 +86,13 @@ class ExactIndex:
     answered in float32 alone. May be used from several threads.
 
     Args:
-        vectors: ``(N, d)`` float32, kept, not copied, when its rows are contiguous; memory-mapped ones, too.
+        vectors: ``(N, d)`` float32, kept, not copied, when its rows are contiguous; memory-mapped ones and those that
+            are stored in fewer bits (:mod:`~motionrt.retrieval.vectors`), too.
         providers: onnxruntime's execution providers of the 8-bit scan, by default the CPU.
     """
 
-    def __init__(self, vectors: FloatArray, *, providers: Providers | None = None) -> None:
-        self._vectors = np.ascontiguousarray(vectors, dtype=np.float32)
+    def __init__(self, vectors: Vectors, *, providers: Providers | None = None) -> None:
+        self._vectors = vectors if isinstance(vectors, Stored) else np.ascontiguousarray(vectors, dtype=np.float32)
         self._providers = checked_providers(providers)
         self._asked = 0
         self._coded: CodedScan | None = None
@@ -91,7 +102,7 @@ class ExactIndex:
     def __len__(self) -> int:
         return len(self._vectors)
 
-    def __reduce__(self) -> tuple[Any, tuple[FloatArray]]:
+    def __reduce__(self) -> tuple[Any, tuple[Vectors]]:
         return partial(ExactIndex, providers=self._providers), (
             self._vectors,
         )  # copied and pickled without what it made for itself
@@ -105,7 +116,7 @@ class ExactIndex:
                 self._coded = CodedScan.build(self._vectors, self._providers)
                 self._worth_coding = self._coded is not None
 
-    def nearest(self, query: FloatArray, k: int) -> tuple[IntArray, FloatArray]:
+    def nearest(self, query: FloatArray, k: int, allowed: Mask | None = None) -> tuple[IntArray, FloatArray]:
         """See :class:`VectorIndex`.
 
         Raises:
@@ -117,15 +128,27 @@ class ExactIndex:
         self._asked += 1
         if self._worth_coding and self._asked > _patience(len(self)):
             self.prepare()
-        found = self._coded.candidates(query, k) if self._coded is not None else None
+        found = self._candidates(query, k, allowed)
         if found is None:
             return top(self._checked(scores(self._vectors, query)), k)
-        best, values = top(scores(self._vectors[found], query), k)
+        best, values = top(self._checked(scores(self._vectors[found], query), found), k)
         return found[best], values
 
-    def _checked(self, values: FloatArray) -> FloatArray:
+    def _candidates(self, query: FloatArray, k: int, allowed: Mask | None) -> IntArray | None:
+        """Ascending indices, with the k best allowed among them; None for all vectors."""
+        if allowed is None:
+            return self._coded.candidates(query, k) if self._coded is not None else None
+        count = int(np.count_nonzero(allowed))
+        if self._coded is not None and count * SELECTIVE > len(self):
+            found = self._coded.candidates(query, min(k, count), allowed)
+            if found is not None:
+                return found
+        return np.flatnonzero(allowed)
+
+    def _checked(self, values: FloatArray, numbers: IntArray | None = None) -> FloatArray:
         if not np.isfinite(values).all():
             first = int(np.flatnonzero(~np.isfinite(values))[0])
+            first = first if numbers is None else int(numbers[first])
             raise InvalidInputError(f"vector {first} is not finite, or too large to be compared in float32")
         return values
 
@@ -136,12 +159,12 @@ def _patience(count: int) -> int:
 
 
 def nearest_per_group(
-    index: VectorIndex, query: FloatArray, k: int, group: npt.NDArray[np.integer]
+    index: VectorIndex, query: FloatArray, k: int, group: npt.NDArray[np.integer], allowed: Mask | None = None
 ) -> tuple[IntArray, FloatArray]:
     """As :meth:`VectorIndex.nearest`, but only the best of every group; ``group`` ``(N,)`` numbers them."""
     asked = k
     while True:
-        found, scores = index.nearest(query, asked)
+        found, scores = index.nearest(query, asked, allowed)
         _, first = np.unique(group[found], return_index=True)
         if len(first) >= k or asked >= len(index):
             kept = np.sort(first)[:k]

@@ -11,52 +11,51 @@ from __future__ import annotations
 import csv
 import json
 import math
-import os
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 from typing import Any
 
 from motionrt.errors import FormatError
 from motionrt.retrieval.records import Caption, Skipped
 from motionrt.untrusted.files import check_file
 
-NAMES = ("captions.csv", "captions.jsonl")
+SIDECARS = ("captions.csv", "captions.jsonl")
+"""What files of words are called."""
+
 _CLIP = ("file", "path", "clip", "trial", "name", "id")
 _TEXT = ("captions", "caption", "text", "description")
 _MOST = 200_000  # rows of a sidecar
 
 
-def read_sidecars(source: Path, clips: Sequence[str]) -> tuple[tuple[Caption, ...], list[Skipped]]:
+def read_sidecars(
+    source: Path, clips: Sequence[str], sidecars: Iterable[str]
+) -> tuple[tuple[Caption, ...], list[Skipped]]:
     """Captions of the clips of a folder, in the order of sidecars and rows, and what could not be understood.
 
     Args:
         source: the indexed folder.
         clips: ids of its clips.
+        sidecars: paths of the sidecars below it.
     """
     found: list[Caption] = []
     skipped: list[Skipped] = []
-    for path in sorted(_sidecars(source)):
-        captions, reason = _read(path, PurePosixPath(path.parent.relative_to(source).as_posix()), clips)
+    names: Names | None = None
+    for path in sidecars:
+        names = names or Names(clips)
+        captions, reason = _read(source / path, path.rpartition("/")[0], names)
         found += captions
         if reason:
-            skipped.append(Skipped(path.relative_to(source).as_posix(), reason))
+            skipped.append(Skipped(path, reason))
     return tuple(found), skipped
 
 
-def _sidecars(source: Path) -> Iterator[Path]:
-    for folder, folders, files in os.walk(source):
-        folders[:] = [name for name in folders if not name.startswith(".")]
-        yield from (Path(folder) / name for name in files if name.lower() in NAMES)
-
-
-def _read(path: Path, below: PurePosixPath, clips: Sequence[str]) -> tuple[list[Caption], str | None]:
-    known = _by_name(below, clips)
+def _read(path: Path, below: str, names: Names) -> tuple[list[Caption], str | None]:
     found: list[Caption] = []
     try:
         check_file(path, lambda reason, _: FormatError(path, reason))
         for row in _rows(path):
-            found += _captions(row, known)
+            found += _captions(row, below, names)
     except (OSError, ValueError, RecursionError, csv.Error) as error:
         return found, f"cannot be read: {error}"
     return found, None if found else "none of its rows names a clip of the folder and words for it"
@@ -76,22 +75,41 @@ def _json_lines(file: Iterable[str]) -> Iterator[Mapping[str, Any]]:
             yield row if isinstance(row, dict) else {}
 
 
-def _by_name(below: PurePosixPath, clips: Sequence[str]) -> dict[str, str]:
-    """What a row may call a clip -> its id; names that several clips share mean none of them."""
-    exact = {clip: clip for clip in clips}
-    short: dict[str, list[str]] = {}
-    for clip in clips:
-        path = PurePosixPath(clip)
-        inside = path.relative_to(below) if path.is_relative_to(below) else path
-        for name in {str(inside), str(inside.with_suffix("")), path.name, path.stem, str(path.with_suffix(""))}:
-            short.setdefault(name, []).append(clip)
-    return {name: ids[0] for name, ids in short.items() if len(ids) == 1} | exact
+class Names:
+    """What a row may call a clip: its path, or its file name, with or without suffix.
+
+    Args:
+        clips: ids of the clips.
+    """
+
+    def __init__(self, clips: Sequence[str]) -> None:
+        self._clips = set(clips)
+        self._bare: dict[str, str | None] = {}  # paths without suffix; None is what several clips share
+        self._short: dict[str, str | None] = {}  # file names
+        for clip in clips:
+            folder, _, name = clip.rpartition("/")
+            stem = name.rpartition(".")[0] or name
+            self._note(self._bare, f"{folder}/{stem}" if folder else stem, clip)
+            for short in {name, stem}:
+                self._note(self._short, short, clip)
+
+    def find(self, name: str, below: str) -> str | None:
+        """The clip that a sidecar in the folder ``below`` calls so; what several clips are called means none."""
+        name = name.removeprefix("./")
+        for path in (f"{below}/{name}" if below else name, name):
+            found = path if path in self._clips else self._bare.get(path)
+            if found is not None:
+                return found
+        return self._short.get(name)
+
+    @staticmethod
+    def _note(names: dict[str, str | None], name: str, clip: str) -> None:
+        names[name] = clip if name not in names else None
 
 
-def _captions(row: Mapping[str, Any], known: Mapping[str, str]) -> list[Caption]:
-    clip = next(
-        (known[name] for key in _CLIP if (name := str(row.get(key) or "").strip().replace("\\", "/")) in known), None
-    )
+def _captions(row: Mapping[str, Any], below: str, names: Names) -> list[Caption]:
+    called = (str(row.get(key) or "").strip().replace("\\", "/") for key in _CLIP)
+    clip = next((clip for name in called if name and (clip := names.find(name, below)) is not None), None)
     tags = tuple(_texts(row.get("tags"), split=True))
     texts = [text for key in _TEXT for text in _texts(row.get(key))] or ([""] if tags else [])
     if clip is None:

@@ -1,6 +1,6 @@
-"""A gallery's folder: ``gallery.json`` and the arrays that it names.
+"""A gallery's folder: ``gallery.json`` and the files that it names.
 
-The arrays' file names carry their checksum, and ``gallery.json`` is replaced last, in one step. So whoever
+The files' names carry their checksum, and ``gallery.json`` is replaced last, in one step. So whoever
 opens the folder, at any moment and after any crash, sees one whole gallery: the old one or the new one.
 """
 
@@ -9,8 +9,8 @@ from __future__ import annotations
 import hashlib
 import os
 import re
-from collections.abc import Callable
-from contextlib import suppress
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import IO, Any
 
@@ -20,14 +20,16 @@ import numpy.typing as npt
 from motionrt.errors import FormatError, GalleryError, GalleryNotFoundError
 from motionrt.retrieval.head import check_seal, parsed, sealed
 from motionrt.untrusted import Fail
-from motionrt.untrusted.files import check_file, read_bytes
+from motionrt.untrusted.files import plain_file, read_bytes
 from motionrt.untrusted.npz import read_npy
 from motionrt.untrusted.words import shown
 
 GALLERY_FILE = "gallery.json"
 DEFAULT_FOLDER = ".motionrt-gallery"
-FORMAT, VERSION = "motionrt-gallery", 1
-_ARRAY_FILE = re.compile(r"(embeddings|windows|motions|attributes|words)-[0-9a-f]{16}\.np[yz]")
+FORMAT, VERSION, OLDEST = "motionrt-gallery", 2, 1
+_PART = re.compile(
+    r"(clips|embeddings|windows|motions|attributes|captions|words|deleted)-[0-9a-f]{16}\.(np[yz]|safetensors)"
+)
 _NEIGHBOURS = re.compile(r"neighbours-[0-9a-f]{16}\.faiss")
 TEMPORARY = ".writing-"
 
@@ -56,9 +58,9 @@ def read_head(folder: Path) -> dict[str, Any]:
     head = parsed(content, fails(path))
     if not isinstance(head, dict) or head.get("format") != FORMAT:
         raise damaged(path, "not a gallery of motionrt")
-    if head.get("version") != VERSION:
+    if head.get("version") not in range(OLDEST, VERSION + 1) or isinstance(head.get("version"), bool | float):
         raise GalleryError(
-            f"{path} has version {shown(head.get('version'))}, this motionrt reads version {VERSION}; build it again"
+            f"{path} has version {shown(head.get('version'))}, this motionrt reads up to {VERSION}; build it again"
         )
     check_seal(content, head, fails(path))
     return head
@@ -69,26 +71,49 @@ def read_array(folder: Path, name: str) -> npt.NDArray[Any]:
     return np.asarray(read_npy(folder / name, fails(folder / name)))
 
 
-def write(folder: Path, head: dict[str, Any], arrays: dict[str, tuple[str, Writer]]) -> None:
-    """Write arrays (role -> suffix and writer), then ``gallery.json`` with their names, then drop the stale.
+@contextmanager
+def writing_to(folder: Path) -> Iterator[Writing]:
+    """Write to a gallery's folder, whose lock the caller holds; whatever fails, the gallery that was there stays::
 
-    The caller holds the folder's lock.
+        with writing_to(folder) as disk:
+            name = disk.part("clips", ".safetensors", writer)
+            disk.commit({"segments": [...]}, {name})
 
     Raises:
         GalleryError: the disk refuses.
     """
     before = {path.name for path in folder.iterdir()}
     try:
-        files = {role: _write_array(folder, role, *how) for role, how in arrays.items()}
-        head = {"format": FORMAT, "version": VERSION, "created_by": _created_by(), **head, "files": files}
-        _replace(folder, GALLERY_FILE, lambda file: _discard(file.write(sealed(head))))
+        yield Writing(folder)
     except BaseException as error:
         _remove_new(folder, before)
         if isinstance(error, OSError):
             raise GalleryError(f"cannot write the gallery to {folder}: {error.strerror}") from error
         raise
-    kept = set(files.values())
-    _remove_stale(folder, kept | {neighbours_name(name) for name in kept})
+
+
+class Writing:
+    """A gallery's folder while it is written: files first, then ``gallery.json`` with their names."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+
+    def part(self, role: str, suffix: str, writer: Writer) -> str:
+        """Write a file of that role; gives its name."""
+        temporary = _write_temporary(self._folder, role, writer)
+        checksum = digest(temporary)
+        path = self._folder / f"{role}-{checksum[:16]}{suffix}"
+        if path.is_file() and digest(path) == checksum:  # a reader may have it mapped: then it cannot be replaced
+            temporary.unlink()
+        else:
+            temporary.replace(path)
+        return path.name
+
+    def commit(self, head: dict[str, Any], kept: set[str]) -> None:
+        """Replace ``gallery.json`` and drop all parts but those that it names, which are ``kept``."""
+        head = {"format": FORMAT, "version": VERSION, "created_by": _created_by(), **head}
+        _replace(self._folder, GALLERY_FILE, lambda file: _discard(file.write(sealed(head))))
+        _remove_stale(self._folder, kept | {neighbours_name(name) for name in kept})
 
 
 def neighbours_name(embeddings: str) -> str:
@@ -100,9 +125,9 @@ def neighbours_name(embeddings: str) -> str:
 
 
 def digest(path: Path) -> str:
-    """The sha256 of a plain file; FormatError for a pipe, a device or a file that is too large."""
+    """The sha256 of a plain file; FormatError for a pipe, a device or a folder."""
     checksum = hashlib.sha256()
-    check_file(path, lambda reason, _: FormatError(path, reason))
+    plain_file(path, lambda reason, _: FormatError(path, reason))
     with path.open("rb") as file:
         while block := file.read(1 << 20):
             checksum.update(block)
@@ -130,17 +155,6 @@ def damaged(path: Path, reason: str) -> GalleryError:
     return GalleryError(f"{path} is damaged ({reason}); build the gallery again: motionrt gallery build")
 
 
-def _write_array(folder: Path, role: str, suffix: str, writer: Writer) -> str:
-    temporary = _write_temporary(folder, role, writer)
-    checksum = digest(temporary)
-    path = folder / f"{role}-{checksum[:16]}{suffix}"
-    if path.is_file() and digest(path) == checksum:  # a reader may have it mapped: then it cannot be replaced
-        temporary.unlink()
-    else:
-        temporary.replace(path)
-    return path.name
-
-
 def _replace(folder: Path, name: str, writer: Writer) -> None:
     _write_temporary(folder, name, writer).replace(folder / name)
 
@@ -156,7 +170,7 @@ def _write_temporary(folder: Path, name: str, writer: Writer) -> Path:
 
 def _remove_stale(folder: Path, keep: set[str]) -> None:
     for path in folder.iterdir():
-        ours = _ARRAY_FILE.fullmatch(path.name) or _NEIGHBOURS.fullmatch(path.name)
+        ours = _PART.fullmatch(path.name) or _NEIGHBOURS.fullmatch(path.name)
         stale = ours and path.name not in keep
         if stale or path.name.startswith(TEMPORARY):
             try:
@@ -168,7 +182,7 @@ def _remove_stale(folder: Path, keep: set[str]) -> None:
 def _remove_new(folder: Path, before: set[str]) -> None:
     """What a write that failed, or was broken off, left behind: it names nothing and fills the disk."""
     for path in folder.iterdir():
-        left = path.name.startswith(TEMPORARY) or (_ARRAY_FILE.fullmatch(path.name) and path.name not in before)
+        left = path.name.startswith(TEMPORARY) or (_PART.fullmatch(path.name) and path.name not in before)
         if left:
             with suppress(OSError):
                 path.unlink()

@@ -138,7 +138,7 @@ class Search(Service):
         _check_motion(motion)
         opened = self.gallery(gallery)
         opened.check_model(self.model.fingerprint, self.model.name)
-        own = next((clip.id for clip in opened.clips if clip.id == motion or opened.path(clip) == motion), None)
+        own = opened.own(motion) if isinstance(motion, str | Path) else None
         return similar(opened, self.embed_motion(opened.motion(own) if own else motion), k, without=own)
 
     def gallery(self, gallery: GalleryLike | None = None) -> Gallery:
@@ -241,6 +241,7 @@ class Search(Service):
         asf: str | Path | None = None,
         animation: int | str | None = None,
         progress: Progress | None = None,
+        precision: str = "float32",
     ) -> BuildReport:
         """Index a folder of motion files; see :func:`motionrt.retrieval.build_gallery`.
 
@@ -261,6 +262,7 @@ class Search(Service):
             asf=asf,
             animation=animation,
             progress=progress,
+            precision=precision,
         )
 
     def update_gallery(self, gallery: str | Path, *, jobs: int = 1, progress: Progress | None = None) -> BuildReport:

@@ -75,6 +75,14 @@ def check_file(path: Path, fail: Fail, limit: str = "file_bytes") -> int:
     Raises:
         FileNotFoundError: there is no such file; the caller says it in its own words.
     """
+    size = plain_file(path, fail)
+    if size > getattr(limits(), limit):
+        raise fail(f"has {size:,} bytes: {how_to_raise(limit)}", None)
+    return size
+
+
+def plain_file(path: Path, fail: Fail) -> int:
+    """As :func:`check_file`, of any size: for files that are mapped, or read piece by piece."""
     try:
         found = path.stat()
     except FileNotFoundError:
@@ -84,8 +92,6 @@ def check_file(path: Path, fail: Fail, limit: str = "file_bytes") -> int:
     if not stat.S_ISREG(found.st_mode):
         what = next((words for test, words in _KINDS if test(found.st_mode)), "is no file")
         raise fail(f"{what}, not a file", None)
-    if found.st_size > getattr(limits(), limit):
-        raise fail(f"has {found.st_size:,} bytes: {how_to_raise(limit)}", None)
     return found.st_size
 
 

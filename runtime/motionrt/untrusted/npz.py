@@ -18,7 +18,7 @@ import numpy.typing as npt
 from motionrt.errors import MotionRTError
 from motionrt.limits import how_to_raise, limits
 from motionrt.untrusted import Fail
-from motionrt.untrusted.files import check_file
+from motionrt.untrusted.files import check_file, plain_file
 
 Arrays = dict[str, npt.NDArray[Any]]
 
@@ -63,7 +63,7 @@ def read_arrays(path: Path, fail: Fail, names: Collection[str] | None = None) ->
 
 def read_npy(path: Path, fail: Fail) -> npt.NDArray[Any]:
     """The array of an npy file, memory-mapped and read-only, which claims no more than the file holds."""
-    size = check_file(path, fail)
+    size = plain_file(path, fail)
     try:
         with path.open("rb") as file:
             shape, fortran, dtype = _header(file)

@@ -38,7 +38,7 @@ def test_each_animation_of_a_file_is_a_clip_of_its_own(tmp_path: Path) -> None:
     for clip in gallery.clips[:2]:
         assert gallery.path(clip) == folder / "pack.glb"
         assert gallery.motion(clip.id).frames == 50
-    assert "run" in WordIndex.of(gallery.clips, gallery.windows, ()).words
+    assert WordIndex.of(gallery.clips, gallery.windows, ()).known("run")
 
 
 def test_an_update_reads_a_file_of_animations_only_when_it_changed(tmp_path: Path) -> None:

@@ -100,16 +100,19 @@ def prepared(vectors: np.ndarray, monkeypatch: pytest.MonkeyPatch) -> ExactIndex
     width=st.sampled_from([1, 3, 16, 100, 255, 256]),
     k=st.integers(1, 40),
     aim=st.sampled_from([0.0, 0.05, 1.0]),
+    share=st.sampled_from([1.0, 0.5, 0.05, 0.0]),
     seed=st.integers(0, 2**31),
 )
 def test_the_answer_is_that_of_float32_bit_for_bit(
-    make: Make, count: int, width: int, k: int, aim: float, seed: int, monkeypatch: pytest.MonkeyPatch
+    make: Make, count: int, width: int, k: int, aim: float, share: float, seed: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     random = np.random.default_rng(seed)
     vectors = np.ascontiguousarray(make(random, count, width), dtype=np.float32)
     query = unit(vectors[count // 2] + aim * random.normal(size=width) / width**0.5)
-    found, scores = prepared(vectors, monkeypatch).nearest(query, k)
-    assert (found.tolist(), scores.tolist()) == plain_answer(vectors, query, k)
+    allowed = random.random(count) < share
+    found, scores = prepared(vectors, monkeypatch).nearest(query, k, None if share == 1 else allowed)
+    expected, values = plain_answer(vectors[allowed], query, k)
+    assert (found.tolist(), scores.tolist()) == (np.flatnonzero(allowed)[expected].tolist(), values)
 
 
 @pytest.mark.parametrize("make", [flat, noise, clusters, duplicates, spikes])

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from fake_embedder import FakeEmbedder, open_fake
+from first_gallery import write_first
 from motions import walking
 
 from motionrt.errors import GalleryError, InvalidInputError
@@ -28,7 +29,6 @@ from motionrt.retrieval import (
 )
 from motionrt.retrieval.columns import Columns
 from motionrt.retrieval.ranking import combined
-from motionrt.retrieval.store import GALLERY_FILE
 from motionrt.retrieval.where import condition
 from motionrt.retrieval.words import WordIndex, stems
 
@@ -175,12 +175,9 @@ def test_similar_and_duplicates_tell_a_clip_from_its_mirror_image(gallery: Galle
 def test_an_old_gallery_opens_without_attributes_and_an_update_adds_them(tmp_path: Path) -> None:
     walking(40).save(tmp_path / "a.bvh")
     walking(60).save(tmp_path / "b.bvh")
-    folder = build_gallery(tmp_path, open_fake).gallery.folder
-    assert folder is not None
-    head = json.loads((folder / GALLERY_FILE).read_text())
-    del head["attributes"], head["checksum"]  # which old galleries did not have
-    (folder / head["files"].pop("attributes")).unlink()
-    (folder / GALLERY_FILE).write_text(json.dumps(head))
+    built = build_gallery(tmp_path, open_fake).gallery
+    assert built.folder is not None
+    write_first(built, built.folder, attributes=False)
     old = Gallery.open(tmp_path)
     assert old.attributes is None
     assert len(_ask(old, "walks to the left")) == 2
@@ -215,3 +212,36 @@ def test_sidecars_give_captions_and_tags_and_an_update_reads_them_again(tmp_path
     (tmp_path / "walks" / "captions.jsonl").write_text("{no json")
     skipped = update_gallery(tmp_path, open_fake).gallery.skipped
     assert [item.path for item in skipped] == ["captions.csv", "walks/captions.jsonl"]
+
+
+def test_words_filter_before_the_search(gallery: Gallery) -> None:
+    from dataclasses import replace
+
+    told = replace(gallery, captions=(Caption("slow", "a pirate limps"), Caption("straight", "a pirate runs")))
+    assert set(_ask(told, "walks", filter=Filter(text="pirates"))) == {"slow", "straight"}
+    assert set(_ask(told, "walks", filter=Filter(text="limping pirate", min_s=8))) == {"slow"}
+    assert (
+        find(told, "walks", EMBEDDER.embed_text(["w"])[0], Search(filter=Filter(text="astronaut"))).notice is not None
+    )
+
+
+@pytest.mark.parametrize("most", [0, 10_000])
+def test_a_filter_that_lets_much_pass_gives_what_a_plain_scan_gives(most: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    from motionrt.retrieval import Clip, finding
+    from motionrt.retrieval.records import ModelStamp, window_table
+
+    monkeypatch.setattr(finding, "_ALL", most)
+    random = np.random.default_rng(3)
+    vectors = random.normal(size=(6000, 256)).astype(np.float32)
+    vectors /= np.linalg.norm(vectors, axis=1, keepdims=True)
+    table = random.normal(0, 40, (6000, len(ATTRIBUTES))).astype(np.float32)
+    clips = tuple(Clip(f"{n:05d}", 10.0) for n in range(6000))
+    spans = window_table([[(0.0, 10.0)]] * 6000)
+    gallery = Gallery(clips, vectors, spans, ModelStamp("fake", "f" * 64), attributes=table).prepare()
+    turn = table[:, ATTRIBUTES.index("turn")]
+    for limit in (0, 60, 150):
+        query = EMBEDDER.embed_text([f"walks {limit}"])[0]
+        search = Search(weights=EMBEDDING_ONLY, filter=Filter(where=f"turn > {limit}"))
+        passed = np.flatnonzero(turn > limit)
+        best = passed[np.argsort(-(vectors[passed] @ query), kind="stable")[:10]]
+        assert [hit.id for hit in find(gallery, "walks", query, search)] == [f"{n:05d}" for n in best]

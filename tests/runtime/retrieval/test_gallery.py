@@ -141,7 +141,7 @@ def test_a_folder_without_a_gallery_says_how_to_build_one(tmp_path: Path) -> Non
 
 
 def test_damage_in_any_file_is_found(gallery: Gallery, tmp_path: Path) -> None:
-    for role in ("embeddings", "windows", "motions"):
+    for role in ("clips", "embeddings", "attributes", "words", "motions"):
         folder = tmp_path / role
         opened = gallery.save(folder)
         opened.verify()
@@ -163,7 +163,7 @@ def test_a_truncated_array_is_an_error_when_opened(gallery: Gallery, tmp_path: P
 
 def test_a_missing_array_is_an_error_when_opened(gallery: Gallery, tmp_path: Path) -> None:
     gallery.save(tmp_path)
-    array_file(tmp_path, "windows").unlink()
+    array_file(tmp_path, "clips").unlink()
     with pytest.raises(GalleryError, match="damaged"):
         Gallery.open(tmp_path)
 
