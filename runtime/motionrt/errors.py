@@ -81,6 +81,10 @@ class GalleryNotFoundError(MotionRTError, FileNotFoundError):
     """There is no gallery in that folder; the message gives the command that builds one."""
 
 
+class EngineError(MotionRTError, RuntimeError):
+    """A database of motion cannot be reached, or refuses; the message says what it said."""
+
+
 class SceneError(MotionRTError, ValueError):
     """A scene cannot be built: an unreadable mesh or map, nothing walkable in it; the message says which and why."""
 

@@ -26,6 +26,9 @@ VERIFY = """read a gallery in full and check every file of it against its checks
 The exit code is 1 where something is damaged; the message names it."""
 COMPACT = """write a gallery as one segment, without what was deleted, in the layout of today
 With --precision its embeddings are stored in other bits from then on."""
+COPY = """put a gallery into a database, whose clips of the same ids it replaces
+The address is like postgresql://user@host/database#library or milvus://host:19530#library (extras postgres, milvus);
+broken off, the command may simply be given again. Search it by: motionrt retrieve TEXT --gallery ADDRESS"""
 DUPLICATES = """list the clips of a gallery that show the same motion: equal files, or as long and alike
 Mirror images are not the same."""
 INFO = """show what a gallery holds, and check its files for damage"""
@@ -65,7 +68,10 @@ def add(commands: Any) -> None:
     same = command(parts, "duplicates", run_duplicates, DUPLICATES)
     same.add_argument("gallery", type=Path, help="a gallery, or the folder that was indexed")
     same.add_argument("--cosine", type=float, default=0.985, metavar="C", help="how alike, at most 1 (default: 0.985)")
-    for parser in (build, update, compact, verify, info, same):
+    copy = command(parts, "copy", run_copy, COPY)
+    copy.add_argument("gallery", type=Path, help="a gallery, or the folder that was indexed")
+    copy.add_argument("address", help="of the library in the database")
+    for parser in (build, update, compact, copy, verify, info, same):
         add_json(parser)
 
 
@@ -122,6 +128,22 @@ def run_compact(arguments: argparse.Namespace) -> int:
         print_json(describe(gallery))
     else:
         print(f"{gallery.folder}: one segment of {len(gallery)} clips, {len(gallery.windows)} windows")
+    return 0
+
+
+def run_copy(arguments: argparse.Namespace) -> int:
+    """``gallery copy``."""
+    from motionrt.engines import copy_gallery, open_store
+    from motionrt.retrieval import Gallery
+
+    gallery, progress = Gallery.open(arguments.gallery), Progress()
+    store = open_store(arguments.address, gallery.model)
+    copied = copy_gallery(gallery, store, lambda done, total: progress(done, total, "clips"))
+    if arguments.json:
+        print_json({"clips": copied, "windows": len(store)})
+    else:
+        print(f"{copied} clips copied; the library holds {len(store)} windows")
+    store.close()
     return 0
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from motionrt.cli.console import print_json, print_table, say
+from motionrt.errors import InvalidInputError
 
 if TYPE_CHECKING:
     from motionrt.retrieval import Filter, Gallery, Hit
@@ -55,17 +56,19 @@ def read_filter(arguments: argparse.Namespace) -> Filter:
     )
 
 
-def show(hits: Sequence[Hit], gallery: Gallery, arguments: argparse.Namespace) -> None:
-    """Print the hits, write them and draw them as the options say."""
+def show(hits: Sequence[Hit], gallery: Gallery | None, arguments: argparse.Namespace) -> None:
+    """Print the hits, write them and draw them as the options say; a database holds no motion to write or draw."""
+    if gallery is None and (arguments.save is not None or arguments.pictures is not None):
+        raise InvalidInputError("a database holds no motions: --save and --pictures need the gallery itself")
     if arguments.json:
         print_json([as_json(hit) for hit in hits])
     else:
         from motionrt.retrieval import grouped
 
         _print([hit for group in grouped(hits) for hit in group])
-    if arguments.save is not None:
+    if gallery is not None and arguments.save is not None:
         _save(hits, gallery, arguments.save)
-    if arguments.pictures is not None and hits:
+    if gallery is not None and arguments.pictures is not None and hits:
         _draw(hits, gallery, arguments.pictures)
 
 

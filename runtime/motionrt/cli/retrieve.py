@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 from typing import Any
 
 from motionrt.cli.console import say, working
@@ -18,7 +17,9 @@ def add(commands: Any) -> None:
     """Add the command."""
     parser = command(commands, "retrieve", run, HELP)
     parser.add_argument("text", help="a sentence, as in 'a person walks in a circle'")
-    parser.add_argument("--gallery", type=Path, metavar="DIR", help="a gallery, or the folder that was indexed")
+    parser.add_argument(
+        "--gallery", metavar="DIR", help="a gallery, or the folder that was indexed; or the address of a database"
+    )
     parser.add_argument("-k", type=int, default=10, metavar="N", help="how many hits (default: 10)")
     parser.add_argument("--windows", action="store_true", help="every 10 s window is a hit, not the best of a clip")
     parser.add_argument("--approximate", action="store_true", help="faster on galleries of 50,000 windows and more")
@@ -35,10 +36,11 @@ def add(commands: Any) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Print the hits, save and draw them when asked to."""
-    from motionrt.retrieval import EMBEDDING_ONLY
+    from motionrt.engines import is_address
+    from motionrt.retrieval import EMBEDDING_ONLY, Gallery
 
     opened = runtime(arguments)
-    gallery = opened.gallery(arguments.gallery)
+    gallery = arguments.gallery if is_address(arguments.gallery) else opened.gallery(arguments.gallery)
     with working("searching"):
         hits = opened.retrieve(
             arguments.text,
@@ -50,7 +52,7 @@ def run(arguments: argparse.Namespace) -> int:
             filter=read_filter(arguments),
             anyway=arguments.anyway,
         )
-    show(hits, gallery, arguments)
+    show(hits, gallery if isinstance(gallery, Gallery) else None, arguments)
     if hits.notice:
         say(f"motionrt: {hits.notice}")
     return 0

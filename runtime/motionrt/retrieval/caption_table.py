@@ -52,8 +52,9 @@ class CaptionTable(Lazy[Caption]):
     @classmethod
     def of(cls, captions: Iterable[Caption], ids: Sequence[str]) -> CaptionTable:
         """The captions of the clips of those ids; what is about others is left out."""
-        numbers = {name: number for number, name in enumerate(ids)}
-        known = [caption for caption in captions if caption.clip in numbers]
+        told = list(captions)
+        numbers = {name: number for number, name in enumerate(ids)} if told else {}
+        known = [caption for caption in told if caption.clip in numbers]
         names = {tag: number for number, tag in enumerate(dict.fromkeys(tag for c in known for tag in c.tags))}
         nan = float("nan")
         return cls(

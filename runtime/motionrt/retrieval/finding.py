@@ -22,7 +22,7 @@ from motionrt.untrusted.arguments import check_flags, check_kind
 if TYPE_CHECKING:
     from motionrt.retrieval.gallery import Gallery
 
-_WIDE, _TIMES = 200, 10  # windows that are looked at closely: at least, and for every hit that is wanted
+WIDE, TIMES = 200, 10  # windows that are looked at closely: at least, and for every hit that is wanted
 _BY_WORDS = 100  # windows that their words bring in
 _ALL = 10_000  # windows that pass a filter, up to which all are looked at closely
 
@@ -136,7 +136,7 @@ def _candidates(
     if allowed is not None and np.count_nonzero(allowed) <= _ALL:
         rows = np.flatnonzero(allowed)
     else:
-        count = max(_WIDE, _TIMES * search.k)
+        count = max(WIDE, TIMES * search.k)
         rows = gallery.nearest(query, count, approximate=search.approximate, allowed=allowed)
         if words is not None:
             shared = words if allowed is None else np.where(allowed, words, np.float32(0))

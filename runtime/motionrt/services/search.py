@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, overload
 
 import numpy as np
 
-from motionrt.errors import GalleryNotFoundError, InvalidInputError
+from motionrt.errors import GalleryError, GalleryNotFoundError, InvalidInputError
 from motionrt.models.text import checked_text
 from motionrt.models.tmr import TextMotionModel
 from motionrt.motion import Motion
@@ -20,6 +20,7 @@ from motionrt.untrusted.arguments import check_functions, check_kind, listed
 from motionrt.untrusted.files import as_path
 
 if TYPE_CHECKING:  # embedding a text, the shortest way to an answer, waits for none of these
+    from motionrt.engines import GalleryStore
     from motionrt.retrieval import BuildReport, Description, EmbeddedCaptions, Gallery, Moments, Progress
     from motionrt.retrieval.filters import Filter
     from motionrt.retrieval.finding import Hits
@@ -27,6 +28,7 @@ if TYPE_CHECKING:  # embedding a text, the shortest way to an answer, waits for 
 
     MotionLike = Motion | str | Path
     GalleryLike = Gallery | str | Path
+    Library = Gallery | GalleryStore | str | Path
 
 _ASSETS = Path(__file__).parents[1] / "_assets"
 STARTER_GALLERY = _ASSETS / "starter"
@@ -59,7 +61,7 @@ class Search(Service):
         self,
         text: str,
         k: int = ...,
-        gallery: GalleryLike | None = ...,
+        gallery: Library | None = ...,
         *,
         per_clip: bool = ...,
         approximate: bool = ...,
@@ -73,7 +75,7 @@ class Search(Service):
         self,
         text: Sequence[str],
         k: int = ...,
-        gallery: GalleryLike | None = ...,
+        gallery: Library | None = ...,
         *,
         per_clip: bool = ...,
         approximate: bool = ...,
@@ -86,7 +88,7 @@ class Search(Service):
         self,
         text: str | Sequence[str],
         k: int = 10,
-        gallery: GalleryLike | None = None,
+        gallery: Library | None = None,
         *,
         per_clip: bool = True,
         approximate: bool = False,
@@ -99,7 +101,8 @@ class Search(Service):
         Args:
             text: a sentence, or a list of them, which gives a list of answers.
             k: how many hits, at least 1; a smaller gallery gives all it has.
-            gallery: a gallery or its folder; by default the starter gallery that came with motionrt.
+            gallery: a gallery or its folder; or a store, or its address (``"postgresql://user@host/database#library"``,
+                ``"milvus://host:19530#library"``); by default the starter gallery that came with motionrt.
             per_clip: only the best span of every clip; otherwise every 10 s window is a hit of its own.
             approximate: search galleries of 50,000 windows and more by a graph of neighbours, which may miss a hit
                 (extra ``ann``); see :meth:`Gallery.search`.
@@ -110,17 +113,24 @@ class Search(Service):
         Raises:
             InvalidInputError: an empty text, a bad ``k``, or a condition that cannot be read.
             GalleryNotFoundError, GalleryError: no gallery there, damaged, or made by another model.
+            EngineError: a database cannot be reached.
         """
         from motionrt.retrieval.filters import EVERYTHING
         from motionrt.retrieval.finding import Search, find
         from motionrt.retrieval.ranking import DEFAULT
 
         self.model.prepare()
-        opened = self.gallery(gallery)
-        opened.check_model(self.model.fingerprint, self.model.name)
         ranked, allowed = DEFAULT if weights is None else weights, EVERYTHING if filter is None else filter
         search = Search(k, per_clip, approximate, ranked, allowed, anyway)
         texts = _texts(text)
+        store = self._store(gallery)
+        if store is not None:
+            from motionrt.engines import find_in
+
+            hits = find_in(store, texts, self.model.embed_text(texts), search)
+            return hits[0] if isinstance(text, str) else hits
+        opened = self.gallery(gallery)  # type: ignore[arg-type]  # a store it is not
+        opened.check_model(self.model.fingerprint, self.model.name)
         embedded = zip(texts, self.model.embed_text(texts), strict=True)
         hits = [find(opened, one, query, search) for one, query in embedded]
         return hits[0] if isinstance(text, str) else hits
@@ -155,6 +165,29 @@ class Search(Service):
         if self._galleries.get(folder, (None,))[0] != changed:
             self._galleries[folder] = changed, Gallery.open(folder, providers=self._providers)
         return self._galleries[folder][1]
+
+    def _store(self, library: Library | None) -> GalleryStore | None:
+        """The store that is meant, open and of the right model; None for a gallery."""
+        if not isinstance(library, str) or "://" not in library:
+            from motionrt.retrieval import Gallery
+
+            if library is None or isinstance(library, str | Path | Gallery):
+                return None
+        from motionrt.engines import open_store
+
+        if isinstance(library, str):
+            store = self._stores[library] = self._stores.get(library) or open_store(library)
+        else:
+            store = library
+        if store.model.fingerprint != self.model.fingerprint:
+            raise GalleryError(
+                f"the store's clips were embedded by the model {store.model.name}, not by {self.model.name}"
+            )
+        return store
+
+    @cached_property
+    def _stores(self) -> dict[str, GalleryStore]:
+        return {}
 
     def describe(self, motion: MotionLike, k: int = 5, captions: Sequence[str] | None = None) -> list[Description]:
         """The captions that fit a motion best, out of a list.

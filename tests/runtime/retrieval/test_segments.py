@@ -53,7 +53,9 @@ def answers(gallery: Gallery, filter: Filter | None = None) -> list[object]:  # 
     """What a gallery says to some questions."""
     queries = EMBEDDER.embed_text(["walk", "jump", "sit"])
     said: list[object] = [
-        [(hit.id, hit.start_s, hit.score) for hit in gallery.search(q, 7, per_clip=c)] for q in queries for c in (False, True)
+        [(hit.id, hit.start_s, hit.score) for hit in gallery.search(q, 7, per_clip=c)]
+        for q in queries
+        for c in (False, True)
     ]
     search = Search(k=7, anyway=True, filter=filter or Filter())
     said += [[(h.id, h.start_s, h.score) for h in find(gallery, "walk alpha left", q, search)] for q in queries]
