@@ -33,6 +33,15 @@ PAGES: dict[str, Page] = {
             "motionrt.text:agreement", "motionrt.text:Agreement",
         ),
     ),
+    "databases": (
+        "Libraries in databases",
+        "PostgreSQL (extra `postgres`), Milvus (extra `milvus`), or a store of your own.",
+        (
+            "motionrt.engines:GalleryStore", "motionrt.engines:Nearest", "motionrt.engines:open_store",
+            "motionrt.engines:copy_gallery", "motionrt.engines:find_in", "motionrt.engines:PostgresStore",
+            "motionrt.engines:MilvusStore",
+        ),
+    ),
     "generation": (
         "Generation and composition",
         "The verbs are on [Runtime](runtime.md); these are what they take.",

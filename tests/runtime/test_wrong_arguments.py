@@ -166,6 +166,10 @@ def _of_galleries(folder: FilePath) -> dict[str, Call]:
         "Gallery.nearest": (gallery.nearest, {"query": query, "count": 1}),
         "Gallery.prepare": (gallery.prepare, {}),
         "Gallery.motion": (saved.motion, {"hit": "a"}),
+        "Gallery.own": (saved.own, {"motion": "a"}),
+        "Gallery.append": (saved.append, {"other": gallery}),
+        "Gallery.delete": (saved.delete, {"ids": ["none"]}),
+        "Gallery.compact": (saved.compact, {"precision": "float32"}),
     }
 
 

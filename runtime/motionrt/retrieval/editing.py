@@ -16,6 +16,7 @@ from motionrt.retrieval.locking import writing
 from motionrt.retrieval.merging import merged
 from motionrt.retrieval.segments import Segment
 from motionrt.retrieval.vectors import checked_precision
+from motionrt.untrusted.arguments import check_kind, listed
 from motionrt.untrusted.words import shown
 
 
@@ -26,6 +27,7 @@ def append(folder: Path, other: Contents) -> None:
         InvalidInputError: one of the ids is taken; or only one of the galleries carries its motions.
         GalleryError: another model made the embeddings, or the folder cannot be written.
     """
+    check_kind(other, Contents, "other", "a Gallery")
     with writing(folder):
         old = layout.read(folder)
         if old.model.fingerprint != other.model.fingerprint:
@@ -45,7 +47,9 @@ def delete(folder: Path, ids: Iterable[str]) -> None:
         InvalidInputError: there is no clip of that id, or none would be left.
         GalleryError: the folder cannot be written.
     """
-    wanted = list(ids)
+    wanted = list(ids) if isinstance(ids, set | frozenset) else listed(ids, "ids", "texts")
+    for name in wanted:
+        check_kind(name, str, "each of ids", "a str")
     with writing(folder):
         old = layout.read(folder)
         unknown = next((name for name in wanted if not _holds(old, name)), None)

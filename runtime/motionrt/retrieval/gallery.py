@@ -317,14 +317,21 @@ class Gallery(Contents):
             allowed: ``(W,)`` which windows may be found, by default all.
 
         Raises:
-            InvalidInputError: a query of another shape or not finite.
+            InvalidInputError: a query of another shape or not finite, or ``allowed`` of another shape.
             MissingDependencyError: ``approximate`` without the package that it needs.
         """
         check_flags(approximate=approximate)
         count, query = checked_whole(count, "count", 1), _as_query(query)
         if query.shape != self.embeddings.shape[1:]:
             raise InvalidInputError(f"a query is a vector of {self.embeddings.shape[1]}, not {query.shape}")
-        return (self._approximate if approximate else self._exact).nearest(query, count, allowed)[0]
+        index = self._approximate if approximate else self._exact
+        return index.nearest(query, count, None if allowed is None else self._checked_mask(allowed))[0]
+
+    def _checked_mask(self, allowed: object) -> Mask:
+        """Which windows may be found; InvalidInputError unless it says yes or no of each."""
+        if isinstance(allowed, np.ndarray) and allowed.dtype == np.bool_ and allowed.shape == (len(self.windows),):
+            return allowed
+        raise InvalidInputError(f"allowed must be an array of {len(self.windows)} booleans, not {shown(allowed)}")
 
     def hit(
         self, rank: int, window: int, score: float, cosine: float | None = None, agreement: float | None = None

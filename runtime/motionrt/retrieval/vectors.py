@@ -22,9 +22,9 @@ Numbers = npt.NDArray[np.integer[Any]]
 
 def checked_precision(precision: object) -> str:
     """The name of a precision; InvalidInputError for any other value."""
-    if precision not in PRECISIONS:
+    if not isinstance(precision, str) or precision not in PRECISIONS:
         raise InvalidInputError(f"a precision is one of {', '.join(PRECISIONS)}, not {shown(precision)}")
-    return str(precision)
+    return precision
 
 
 class Stored:

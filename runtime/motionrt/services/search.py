@@ -18,6 +18,7 @@ from motionrt.motion.skeleton import FloatArray
 from motionrt.services.service import Service
 from motionrt.untrusted.arguments import check_functions, check_kind, listed
 from motionrt.untrusted.files import as_path
+from motionrt.untrusted.words import shown
 
 if TYPE_CHECKING:  # embedding a text, the shortest way to an answer, waits for none of these
     from motionrt.engines import GalleryStore
@@ -168,17 +169,19 @@ class Search(Service):
 
     def _store(self, library: Library | None) -> GalleryStore | None:
         """The store that is meant, open and of the right model; None for a gallery."""
-        if not isinstance(library, str) or "://" not in library:
-            from motionrt.retrieval import Gallery
+        from motionrt.retrieval import Gallery
 
-            if library is None or isinstance(library, str | Path | Gallery):
-                return None
-        from motionrt.engines import open_store
+        folder = isinstance(library, Path) or (isinstance(library, str) and "://" not in library)
+        if folder or library is None or isinstance(library, Gallery):
+            return None
+        from motionrt.engines import GalleryStore, open_store
 
         if isinstance(library, str):
             store = self._stores[library] = self._stores.get(library) or open_store(library)
-        else:
+        elif isinstance(library, GalleryStore):
             store = library
+        else:
+            raise InvalidInputError(f"gallery must be a folder, a Gallery or a GalleryStore, not {shown(library)}")
         if store.model.fingerprint != self.model.fingerprint:
             raise GalleryError(
                 f"the store's clips were embedded by the model {store.model.name}, not by {self.model.name}"
