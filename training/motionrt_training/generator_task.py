@@ -36,6 +36,7 @@ from motionrt_training.text_cache import TextFeatures
 ACTION = list(SLOTS).index("action")
 BUCKET = 4  # batches that are sorted by length together
 SMALLEST_STD = 0.05  # of joints, metres
+SMALLEST = 1e-3  # of the root's columns, which may be constant
 HAND_KEYED = 0.4  # weight of animations that were keyed by hand
 
 
@@ -219,4 +220,5 @@ def _statistics(views: Views) -> tuple[NDArray[np.float32], NDArray[np.float32]]
     mean, std = both.mean(0), both.std(0)
     std[ego77.JOINTS] = np.maximum(std[ego77.JOINTS], SMALLEST_STD)
     mean[ego77.CONTACTS], std[ego77.CONTACTS] = 0.5, 0.5
+    std = np.maximum(std, SMALLEST)
     return mean, std

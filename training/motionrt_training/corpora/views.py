@@ -1,7 +1,8 @@
 """Views for the generator, drawn once: stretches of recordings as ``ego77``, what was measured there and what is said.
 
 A view is a stretch of 0.5 to 10 s. It may hold a captioned span and what lies about it, two spans one after the other
-("A, then B"), a part of one, or frames that no caption speaks of; some are bent along a curve or play at another speed.
+("A, then B"), a part of one, or frames that no caption speaks of; some are bent along a curve, play at another speed or
+have the arms of another recording. What recordings seldom show is drawn oftener than it is recorded.
 Slots and numbers are measured on the very frames that the network sees.
 
     python -m motionrt_training.corpora.views runs/positions.npz -o runs/views.npz --count 40000
@@ -11,6 +12,7 @@ from __future__ import annotations
 
 import argparse
 import json
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
@@ -23,18 +25,26 @@ from tqdm import tqdm
 
 from motionrt.motion.attributes import Attributes, measure
 from motionrt.motion.features import ego77
-from motionrt.text import attribute_targets, slots_of_motion
+from motionrt.text import attribute_targets, parse_query, slots_of_motion
+from motionrt_training.corpora.composed import acting_arms, with_arms
 from motionrt_training.corpora.positions import CaptionedSpan, PackedRecording, unpack_positions
+from motionrt_training.simultaneous import sentence
 from motionrt_training.wording.measured import say_measured
 from motionrt_training.wording.saying import THEN
 
 LEAST, MOST = 10, 200  # frames of a view at 20 fps
 LENGTHS = ((0.5, 64, 100), (0.25, 16, 72), (0.25, 100, MOST))  # part of the views, frames from, to
 ALONE = 0.5  # part of the spans shorter than the view that stay without what lies about them
-UNTOLD = 0.15  # part of the views that no caption speaks of
+UNTOLD = 0.1  # part of the views that no caption speaks of
 SPEED, SPED = 0.15, 0.4  # largest change of speed, and part of the views that have one
 BENT, MOST_BEND = 0.25, np.radians(90)  # part of the travelling views that are bent, and by how much at most
 MOST_BEND_RATE = np.radians(25) / ego77.FPS
+OF_LEGS = {"walk", "turn", "run", "jog", "sidestep", "stand", "march", "sit", "squat", "stairs", "kneel", "sneak"}
+COMPOSED = 0.25  # part of the views of these actions that have the arms of another recording
+DONOR_LEAN = 25  # degrees that whoever lends arms may lean
+SHORT = 9  # words of a caption that stands beside another one
+BALANCE = (0.5, 5.0)  # least and most often that an action is drawn beside its share of the time
+DONATED = 40  # least frames of a span whose arms are lent
 SPOKEN = 2  # sentences made from what was measured
 
 Row = tuple[NDArray[np.float16], dict[str, Any]]
@@ -74,17 +84,65 @@ def draw_views(recordings: Sequence[PackedRecording], count: int, seed: int) -> 
     """`count` views, spans and untold stretches in proportion to their time."""
     rng = np.random.default_rng(seed)
     spans = [(recording, span) for recording in recordings for span in recording.spans]
-    weight = np.array([min(max(span.count, 40), 240) for _, span in spans], float)
+    weight = np.array([min(max(span.count, 40), 240) for _, span in spans], float) * _balance(spans)
     seconds = np.array([len(recording.joints) for recording in recordings], float)
+    donors = [(span, *found) for recording, span in spans if (found := _donor(recording, span))]
     for _ in range(count):
         if rng.random() < UNTOLD:
             recording = recordings[int(rng.choice(len(recordings), p=seconds / seconds.sum()))]
-            first, frames = _untold(recording, rng)
+            action, (first, frames) = None, _untold(recording, rng)
         else:
             recording, span = spans[int(rng.choice(len(spans), p=weight / weight.sum()))]
-            first, frames = _about(recording, span, rng)
-        if frames >= LEAST:
-            yield _row(recording, first, frames, rng)
+            action, (first, frames) = _action(span), _about(recording, span, rng)
+        if frames < LEAST:
+            continue
+        joints = recording.joints[first : first + frames].astype(np.float64)
+        captions = _said(recording.spans, first, frames, rng)
+        if donors and captions and action in OF_LEGS and rng.random() < COMPOSED:
+            joints, captions = _composed(joints, captions, donors[int(rng.integers(len(donors)))], rng)
+        yield _row(joints, captions, recording.source, rng)
+
+
+def _balance(spans: Sequence[tuple[PackedRecording, CaptionedSpan]]) -> NDArray[np.float64]:
+    """How often each span is drawn beside its length: the less there is of its action, the oftener."""
+    actions = [_action(span) for _, span in spans]
+    total: Counter[str | None] = Counter()
+    for action, (_, span) in zip(actions, spans, strict=True):
+        total[action] += span.count
+    mean = float(np.mean(list(total.values())))
+    return np.array([np.clip(np.sqrt(mean / total[action]), *BALANCE) for action in actions])
+
+
+def _action(span: CaptionedSpan) -> str | None:
+    """The action that most of a span's captions name."""
+    named = Counter(action for text in span.captions if (action := parse_query(text).action))
+    return named.most_common(1)[0][0] if named else None
+
+
+def _donor(recording: PackedRecording, span: CaptionedSpan) -> tuple[NDArray[np.float32], tuple[str, ...]] | None:
+    """Joints of a span that arms alone do, and these arms."""
+    joints = recording.joints[span.first : span.first + span.count]
+    if span.count < DONATED or not span.captions:
+        return None
+    found = measure(joints, ego77.FPS)
+    if found.pelvis_lowest < 0.8 or found.lean_max > DONOR_LEAN:
+        return None
+    arms = acting_arms(joints)
+    return (joints, arms) if arms else None
+
+
+def _composed(
+    joints: NDArray[np.float64],
+    captions: list[str],
+    donor: tuple[CaptionedSpan, NDArray[np.float32], tuple[str, ...]],
+    rng: np.random.Generator,
+) -> tuple[NDArray[np.float64], list[str]]:
+    """A view with the arms of another one, and what is said of both."""
+    span, arms_of, arms = donor
+    frames = min(len(joints), len(arms_of))
+    first = int(rng.integers(0, len(arms_of) - frames + 1))
+    said = [sentence(caption, str(rng.choice(_short(span.captions))), rng) for caption in _short(captions)[:3]]
+    return with_arms(joints[:frames], arms_of[first : first + frames], arms), said
 
 
 def _length(rng: np.random.Generator) -> int:
@@ -110,9 +168,13 @@ def _about(recording: PackedRecording, span: CaptionedSpan, rng: np.random.Gener
     return first, min(wanted, total - first)
 
 
-def _row(recording: PackedRecording, first: int, frames: int, rng: np.random.Generator) -> Row:
-    captions = _said(recording.spans, first, frames, rng)
-    joints = recording.joints[first : first + frames].astype(np.float64)
+def _short(captions: Sequence[str]) -> list[str]:
+    """Captions that can stand beside another one in a sentence."""
+    short = [caption for caption in captions if len(caption.split()) <= SHORT] or captions[:1]
+    return [caption.rstrip(".") for caption in short]
+
+
+def _row(joints: NDArray[np.float64], captions: list[str], source: str, rng: np.random.Generator) -> Row:
     if rng.random() < SPED:
         joints = _at_speed(joints, float(np.exp(rng.uniform(-SPEED, SPEED))))
     joints = joints[:MOST]
@@ -122,16 +184,14 @@ def _row(recording: PackedRecording, first: int, frames: int, rng: np.random.Gen
         joints = ego77.decode(features)
         found = measure(joints, ego77.FPS)
         captions = captions if abs(found.path_bend) < 40 else []
-    return features.astype(np.float16), _meta(recording, found, captions, rng)
+    return features.astype(np.float16), _meta(source, found, captions, rng)
 
 
-def _meta(
-    recording: PackedRecording, found: Attributes, captions: list[str], rng: np.random.Generator
-) -> dict[str, Any]:
+def _meta(source: str, found: Attributes, captions: list[str], rng: np.random.Generator) -> dict[str, Any]:
     targets, known = attribute_targets(found)
     return {
         "slots": slots_of_motion(found), "targets": targets, "known": known, "captions": captions,
-        "spoken": say_measured(found, rng, SPOKEN), "source": recording.source,
+        "spoken": say_measured(found, rng, SPOKEN), "source": source,
     }  # fmt: skip
 
 
