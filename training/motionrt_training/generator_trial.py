@@ -14,6 +14,7 @@ from motionrt.motion.attributes import measure
 from motionrt.motion.body_parts import PARTS
 from motionrt.motion.features import ego77
 from motionrt.motion.skeleton import SMPL24
+from motionrt.synthesis.canvas import GUIDED
 from motionrt.synthesis.motion_diffusion import solve
 from motionrt.synthesis.sampling import MOTION_STEPS, POSE_GUIDANCE, TURN_GUIDANCE
 from motionrt.text import SLOTS, agreement, parse_query, slots_of_text, targets_of_text
@@ -82,7 +83,8 @@ def sample(
     weight = torch.tensor([[turn, pose]]).expand(count, 2)
 
     def denoise(state: Features, level: float) -> Features:
-        found = model.guided(torch.from_numpy(state), torch.full((count,), level), told, weight)
+        weights = weight if level >= GUIDED else torch.ones_like(weight)
+        found = model.guided(torch.from_numpy(state), torch.full((count,), level), told, weights)
         return np.asarray(found.numpy())
 
     noise = np.random.default_rng(seed).standard_normal((count, length, ego77.WIDTH), dtype=np.float32)

@@ -19,12 +19,16 @@ from motionrt.motion.body_parts import PARTS
 from motionrt.motion.features import ego77
 from motionrt.synthesis.motion_diffusion import held_columns, solve
 from motionrt.synthesis.smoothing import smoothed
-from motionrt.text import TARGETS
+from motionrt.text import TARGETS, Way
 
 BoolArray = npt.NDArray[np.bool_]
 OWNERS = held_columns()
 LATE = 2.5
 """Noise level from which on corrections are made: before it, the estimate is still a mean of many motions."""
+GUIDED = 2.0
+"""Noise level down to which texts are guided: what is done is settled by then, and guidance would only stiffen it
+(Kynkaanniemi et al. 2024)."""
+PLAIN = (1.0, 1.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,12 +39,14 @@ class Words:
         features: of the sentence encoder.
         slots: ``(S,)`` classes of what it says.
         numbers, known: ``(A,)`` what it stands for in numbers, and which of them it says.
+        way: how far and which way it says that one turns and goes.
     """
 
     features: SentenceFeatures
     slots: npt.NDArray[np.int64]
     numbers: FloatArray = field(default_factory=lambda: np.zeros(len(TARGETS), np.float32))
     known: BoolArray = field(default_factory=lambda: np.zeros(len(TARGETS), bool))
+    way: Way = field(default_factory=Way)
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,7 +116,8 @@ def draw(
 
     def denoise(state: FloatArray, level: float) -> FloatArray:
         nonlocal held, raw
-        clean, raw = _estimate(denoiser, replace(canvas, held=held), state, level, guidance)
+        weights = guidance if level >= GUIDED else PLAIN
+        clean, raw = _estimate(denoiser, replace(canvas, held=held), state, level, weights)
         if canvas.correct is not None and level < LATE:
             held = canvas.correct(raw).over(canvas.held)
         return clean

@@ -13,6 +13,7 @@ from motionrt.text.slots import (
     slots_of_text,
 )
 from motionrt.text.targets import TARGETS, attribute_targets, mirror_known, mirror_targets, targets_of_text
+from motionrt.text.ways import Way, way_of_text
 
 __all__ = [
     "ACTIONS",
@@ -20,6 +21,7 @@ __all__ = [
     "TARGETS",
     "Agreement",
     "TextAttributes",
+    "Way",
     "agreement",
     "agreements",
     "attribute_targets",
@@ -31,4 +33,5 @@ __all__ = [
     "slots_of_motion",
     "slots_of_text",
     "targets_of_text",
+    "way_of_text",
 ]

@@ -1,4 +1,4 @@
-"""How far and which way a text says that somebody turns and goes: ranges that a motion is in, or can be brought into."""
+"""How far and which way a text says that somebody turns and goes, as ranges."""
 
 from __future__ import annotations
 
@@ -9,12 +9,14 @@ from motionrt.text.query import TextAttributes
 Range = tuple[float, float]
 
 _TURNS: dict[str, Range] = {"turn": (60, 125), "around": (150, 215), "full": (330, 400)}  # degrees
+_BENDS: dict[str, Range] = {"curve": (70, 190), "circle": (240, 420), "spin": (330, 760)}
 _STRAIGHT: Range = (-12, 12)
 _PACES: dict[str | None, Range] = {  # m/s
     None: (0.45, 9.0), "slow": (0.3, 0.8), "walk": (0.75, 1.6), "jog": (1.5, 3.0), "run": (2.2, 6.0),
 }  # fmt: skip
 _BACKWARD, _SIDEWAYS = 0.4, 0.25  # least m/s
 _STEP, _STAY = 0.35, 0.2  # metres of one step to a side; metres that whoever stays may drift
+_SIDES = ("left", "right")
 _ASIDE = 0.4  # metres aside for every metre of the way, at most
 
 
@@ -35,14 +37,18 @@ class Way:
 
 def way_of_text(said: TextAttributes, seconds: float) -> Way:
     """What a text says of the way of a motion of so many seconds."""
-    forward, left = _places(said, seconds)
+    turn, side = _turning(said)
+    low_high = turn if turn is None or side != "right" else (-turn[1], -turn[0])
+    return Way(low_high, *_places(said, seconds), either=turn not in (None, _STRAIGHT) and side not in _SIDES)
+
+
+def _turning(said: TextAttributes) -> tuple[Range | None, str | None]:
+    """How far it turns, and to which side; a bent path turns who walks it."""
     if said.turn == "none" or said.path == "straight":
-        return Way(_STRAIGHT, forward, left)
-    if said.turn in _TURNS and said.path is None:
-        low, high = _TURNS[said.turn]
-        either = said.turn_side not in ("left", "right")
-        return Way((-high, -low) if said.turn_side == "right" else (low, high), forward, left, either)
-    return Way(None, forward, left)
+        return _STRAIGHT, None
+    if said.path is not None:
+        return _BENDS.get(said.path), said.path_side
+    return (_TURNS.get(said.turn), said.turn_side) if said.turn else (None, None)
 
 
 def _places(said: TextAttributes, seconds: float) -> tuple[Range | None, Range | None]:
