@@ -40,6 +40,9 @@ from motionrt_training.networks.tmr import TMR
 from motionrt_training.networks.transnet import TransNet
 from motionrt_training.networks.walknet import WalkNet
 
+PROJECT = Path(__file__).resolve().parents[2] / "models"
+"""Checkpoints of this project: they help to try a network out that is exported alone."""
+
 NEEDS: Mapping[str, tuple[type[nn.Module], ...]] = {
     specs.TMR_TEXT.name: (TMR,),
     specs.TMR_STUDENT.name: (TextStudent,),
@@ -54,7 +57,7 @@ NEEDS: Mapping[str, tuple[type[nn.Module], ...]] = {
     specs.LATENT_DENOISER.name: (LatentDenoiser, Temos),
     specs.MOTION_DENOISER.name: (MotionDenoiser,),
 }
-"""The released networks that a graph, its inputs and its trial are made of."""
+"""The released networks that a graph, its inputs and its trial are made of: its own first."""
 
 
 class MissingCheckpointsError(FileNotFoundError):
@@ -90,23 +93,33 @@ class Source:
 class Sources:
     """The released checkpoints and the sentence encoder's package, read when they are needed.
 
-    `steps` and `characters` say how far how many characters walk when WalkNet is validated, `generations` how many
-    motions are made when TEMOS and its denoiser are; texts are tried on every `every`-th caption of the runtime's list.
+    Beside `checkpoints`, `helpers` is a folder of networks for trials alone (see `checkpoint`). `steps` and
+    `characters` say how far how many characters walk when WalkNet is validated, `generations` how many motions are made
+    when TEMOS and its denoiser are; texts are tried on every `every`-th caption of the runtime's list.
     """
 
     steps, characters, generations, every = 1000, 32, 64, 1
 
-    def __init__(self, checkpoints: Path) -> None:
-        self.folder = checkpoints
+    def __init__(self, checkpoints: Path, helpers: Path = PROJECT) -> None:
+        self.folder, self.helpers = checkpoints, helpers
 
     def checkpoint(self, network: type[nn.Module]) -> Path:
-        """The file that a network is released in."""
-        return self.folder / f"{network_name(network)}.safetensors"
+        """The file that a network is released in, or, where it is not there, the project's own of that name."""
+        name = f"{network_name(network)}.safetensors"
+        own = self.folder / name
+        return own if own.is_file() or not (self.helpers / name).is_file() else self.helpers / name
 
     def check(self, graphs: Collection[str] | None = None) -> None:
-        """Raise MissingCheckpointsError unless the released networks that these graphs need are there; None: all."""
-        needed = NETWORKS.values() if graphs is None else {kind: None for name in graphs for kind in NEEDS[name]}
-        paths = [self.checkpoint(network) for network in needed]
+        """Raise MissingCheckpointsError unless the released networks of these graphs are there; None: all.
+
+        What a graph needs beside its own network, to be tried out, may be the project's.
+        """
+        own = NETWORKS.values() if graphs is None else {NEEDS[name][0]: None for name in graphs}
+        others = (
+            () if graphs is None else {kind: None for name in graphs for kind in NEEDS[name][1:] if kind not in own}
+        )
+        paths = [self.folder / f"{network_name(network)}.safetensors" for network in own]
+        paths += [self.checkpoint(network) for network in others]
         if missing := [str(path) for path in paths if not path.is_file()]:
             how = "python -m motionrt_training.checkpoint RUN/best.pt --network NAME -o FILE"
             raise MissingCheckpointsError(f"no released model at {', '.join(missing)}; train, then: {how}")

@@ -24,7 +24,7 @@ SEQUENCES = (
 
 def walk(number: int, seconds: float = 6.0) -> Motion:
     """A walk of its own speed, at 60 fps, arms hanging and swinging a little."""
-    motion, _ = gait(seconds, fps=60.0, speed=0.8 + 0.05 * number)
+    motion, _ = gait(seconds, fps=60.0, speed=0.5 + 0.01 * number)
     rotations = motion.rotations.copy()
     for name, side in (("left_shoulder", -1.0), ("right_shoulder", 1.0)):
         swing = side * (1.3 + 0.1 * np.sin(np.arange(motion.frames) / 9.0 + number))

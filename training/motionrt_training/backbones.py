@@ -77,8 +77,9 @@ class OnnxBackbone:
         options = onnxruntime.SessionOptions()
         options.intra_op_num_threads = 1  # texts are short, and training wants the cores
         self.session = onnxruntime.InferenceSession(path, options, providers=["CPUExecutionProvider"])
-        switches = [value.name for value in self.session.get_overridable_initializers()]
-        self._only = {"embed": np.array(False)} if "embed" in switches else {}  # nothing behind the sentence encoder
+        switches = [*self.session.get_inputs(), *self.session.get_overridable_initializers()]
+        named = "embed" in [value.name for value in switches]
+        self._only = {"embed": np.array(False)} if named else {}  # nothing behind the sentence encoder
         self.fingerprint = f"onnx-{hashlib.sha256(path.read_bytes()).hexdigest()}"
 
     def encode(self, text: str) -> Encoded:

@@ -3,7 +3,7 @@
     python -m motionrt_training.checkpoint runs/walknet/best.pt --network walknet -o models/walknet.safetensors
 
 releases the averaged weights of a trainer's ``best.pt`` or ``last.pt``; ``--command`` keeps the command that trained
-them.
+them, ``--licence`` says under which terms they are released (the data's own terms come from the pack).
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from typing import Any, TypeVar
 import torch
 from torch import Tensor, nn
 
+from motionrt_training.data_record import NOT_STATED
 from motionrt_training.networks.latent_denoiser import LatentDenoiser
 from motionrt_training.networks.motion_denoiser import MotionDenoiser
 from motionrt_training.networks.pose_prior import PosePrior
@@ -114,12 +115,18 @@ def trained_model(state: Mapping[str, Any], network: type[Network]) -> Network:
     return model
 
 
-def release(source: str | Path, target: str | Path, network: str, command: str | None = None) -> None:
-    """Averaged weights of a trainer's checkpoint -> `save_release`, with how they came to be."""
+def release(
+    source: str | Path, target: str | Path, network: str, command: str | None = None, licence: str | None = None
+) -> None:
+    """Averaged weights of a trainer's checkpoint -> `save_release`, with how they came to be and their licence.
+
+    Without a licence it is ``"not stated"``, and so it will stand in the manifest.
+    """
     state = load_state(source)
     facts: dict[str, object] = {name: state[name] for name in ("seed", "measures", "notes") if name in state}
     facts |= {"recipe": network, "steps": state["step"], "minutes": state["elapsed"] / 60}
     facts |= {"command": command} if command else {}
+    facts |= {"licence": licence or NOT_STATED, "data": state.get("data", [])}
     save_release(trained_model(state, NETWORKS[network]), target, facts)
 
 
@@ -145,8 +152,9 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--network", required=True, choices=tuple(NETWORKS))
     parser.add_argument("-o", "--out", type=Path, required=True, help="the .safetensors to write")
     parser.add_argument("--command", help="the command that trained the checkpoint, to be released with it")
+    parser.add_argument("--licence", help="terms under which you release the weights (default: not stated)")
     args = parser.parse_args(arguments)
-    release(args.checkpoint, args.out, args.network, args.command)
+    release(args.checkpoint, args.out, args.network, args.command, args.licence)
 
 
 if __name__ == "__main__":

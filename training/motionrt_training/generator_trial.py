@@ -39,6 +39,9 @@ def read_prompts(path: Path = PROMPTS) -> list[str]:
     return [line.strip() for line in lines if line.strip() and not line.startswith("#")]
 
 
+FLUNG = 1e3  # metres, or radians a frame
+
+
 @dataclass(frozen=True)
 class Trial:
     """Prompts with their token features (T, 384), and what recordings' `looks` are."""
@@ -52,15 +55,25 @@ class Trial:
         """Share of motions that pass, mean agreement, and what they look like beside recordings."""
         motions = sample(model, self.texts, self.tokens, FRAMES, self.seed)
         scores = [obeys(text, motion) for text, motion in zip(self.texts, motions, strict=True)]
-        found = looks(motions)
+        whole = [motion for motion in motions if is_whole(motion)]
+        if not whole:
+            return {"passed": 0.0, "agreement": 0.0, "score": 0.0}
+        found = looks(whole)
         own = {name: found[name] / max(self.recorded[name], 1e-6) for name in ("energy", "jerk", "skate")}
         own |= {name: found[name] for name in ("floating", "bones")}
         passed = float(np.mean([score >= PASSED for score in scores]))
         return {"passed": passed, "agreement": float(np.mean(scores)), **own, "score": float(np.mean(scores))}
 
 
+def is_whole(motion: Features) -> bool:
+    """Whether features are finite and no joint is flung away, as networks do that have hardly been trained."""
+    return bool(np.isfinite(motion).all() and np.abs(motion).max() < FLUNG)
+
+
 def obeys(text: str, motion: Features) -> float:
-    """How well ``ego77`` features (F, 77) do what a text says, 0 to 1."""
+    """How well ``ego77`` features (F, 77) do what a text says, 0 to 1; 0 for what is no motion at all."""
+    if not is_whole(motion):
+        return 0.0
     return float(agreement(parse_query(text), measure(ego77.decode(motion), ego77.FPS)))
 
 

@@ -1,4 +1,4 @@
-"""Texts and motions of simultaneous actions: two labels in one sentence, and synthetic pairs (SINC 3.2)."""
+"""Texts and motions of simultaneous actions: two labels in one sentence, and synthetic pairs (SINC 3.1)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What TEMOS is trained on: crops of clips and synthetic pairs, each with a sentence (SINC 3.2, 3.4)."""
+"""What TEMOS is trained on: crops of clips and synthetic pairs, each with a sentence (SINC 3.1, 3.3)."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ import torch
 from numpy.typing import NDArray
 from torch import Tensor
 
+from motionrt.errors import InvalidInputError
 from motionrt.synthesis.composing import combination, compatible
 from motionrt_training.backbones import Backbone
 from motionrt_training.corpora.actions import Action, ActionClip
@@ -60,6 +61,10 @@ class Examples:
             raise ValueError("no clips to train on")
         self.clips, self.data = list(clips), data
         self.labelled = [(clip, action) for clip in self.clips for action in clip.actions if action.parts]
+        if data.synthetic and not self.labelled:
+            raise InvalidInputError(
+                "no clip has an action label with body parts, so that nothing can be composed: give --synthetic 0"
+            )
 
     def draw(self, rng: np.random.Generator, longest: int = 120) -> Example:
         """A crop of a real clip, or a synthetic pair, up to `longest` frames; half of them mirrored."""

@@ -16,6 +16,7 @@ from tqdm import tqdm
 
 from motionrt_training.average import Average
 from motionrt_training.checkpoint import load_any, load_state, save_atomically
+from motionrt_training.data_record import DataRecord
 from motionrt_training.options import option
 from motionrt_training.stop_signal import StopSignal
 
@@ -61,7 +62,8 @@ class Task(Protocol):
 class Trainer:
     """Trains `task` into `folder`: last.pt (to go on from), best.pt (averaged weights), log.jsonl.
 
-    A run begins from the weights of `init`, a checkpoint or a release of the same network, where one is given.
+    A run begins from the weights of `init`, a checkpoint or a release of the same network, where one is given. `data`
+    says whose data it is trained on; it is kept in the checkpoints.
     """
 
     def __init__(
@@ -71,8 +73,10 @@ class Trainer:
         folder: str | Path,
         notes: dict[str, Any] | None = None,
         init: Path | None = None,
+        data: DataRecord | None = None,
     ) -> None:
         self.task, self.schedule, self.folder, self.notes = task, schedule, Path(folder), notes or {}
+        self.data = data or []
         self.device = _device(schedule.device)
         if init is not None:
             task.model.load_state_dict(load_any(init, type(task.model)).state_dict())
@@ -172,6 +176,7 @@ class Trainer:
             "elapsed": self.elapsed,
             "seed": self.schedule.seed,
             "notes": self.notes,
+            "data": self.data,
         }
         save_atomically(state, self.folder / "best.pt")
 
@@ -186,6 +191,7 @@ class Trainer:
             "best": self.best,
             "seed": self.schedule.seed,
             "notes": self.notes,
+            "data": self.data,
         }
         save_atomically(state, self.folder / "last.pt")
 
@@ -194,7 +200,7 @@ class Trainer:
         if not path.exists():
             return
         state = load_state(path)
-        if state["notes"] != self.notes:
+        if any(self.notes.get(name, value) != value for name, value in state["notes"].items()):
             raise ValueError(f"{path} was trained with other settings; give them, or another --out")
         self.model.load_state_dict(state["model"])
         self.average.load(state["average"])

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from tqdm import tqdm
 
+from motionrt.errors import InvalidInputError
 from motionrt.motion import Motion
 from motionrt.motion.features import ccf219
 from motionrt.motion.feet.lock import planted_toes
@@ -73,7 +74,10 @@ class WalkPool:
 def load_or_make(recordings: Recordings, split: str, path: Path) -> WalkPool:
     """The pool of a split, read from `path` if it is there, else made and written there."""
     if not path.is_file():
-        pool = pool_of(_varied(recordings, split))
+        motions = list(_varied(recordings, split))
+        if not motions:
+            raise InvalidInputError(f"nobody walks in the recordings of split '{split}'; WalkNet needs walks in both")
+        pool = pool_of(iter(motions))
         np.savez(path, **{field.name: getattr(pool, field.name) for field in fields(pool)})
     return read_pool(path)
 

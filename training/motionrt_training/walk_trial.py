@@ -38,7 +38,9 @@ class Trial:
         rng = np.random.default_rng(seed)
         starts = pool.starts(FRAMES)
         walking = starts[(pool.speed[starts] > 0.8) & (pool.weight[starts] == 1.0)]
-        first = rng.choice(walking, len(SPEEDS), replace=False)
+        if not len(walking):
+            walking = starts[pool.speed[starts] >= np.median(pool.speed[starts])]  # a corpus of slow walks
+        first = rng.choice(walking, len(SPEEDS), replace=len(walking) < len(SPEEDS))
         self.history = pool.frames[first[:, None] + np.arange(FRAMES)]
         self.height = float(np.median(pool.frames[walking, 217]))
         headings = pool.heading[first + FRAMES - 1]

@@ -1,4 +1,4 @@
-"""Walking at stride 1: many characters, a frame at a time, each towards its own goal  [Continual 3.3].
+"""Walking at stride 1: many characters, a frame at a time, each towards its own goal  [Continual 3.5].
 
 Every step looks at the last 30 frames from the goal, predicts, and keeps one frame. A game's loop calls
 :meth:`Crowd.step`; goals may change between any two frames.

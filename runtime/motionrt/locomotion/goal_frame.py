@@ -1,4 +1,4 @@
-"""The goal-centric canonical frame: planar translation and yaw of a goal removed  [Continual 3.1, eq. 2-5].
+"""The goal-centric canonical frame: planar translation and yaw of a goal removed  [Continual 3.4 and 3.5, eq. 2-5].
 
 ``C(X; R, t)``: the goal becomes the origin and its heading +Z. Heights stay. Only the pelvis turns: all other
 rotations are local to their parents.
@@ -51,7 +51,7 @@ def canonicalise(motion: Motion, goal: Goal) -> Motion:
 
 
 def uncanonicalise(motion: Motion, goal: Goal) -> Motion:
-    """Inverse of :func:`canonicalise` (eq. 4 and 5)."""
+    """Inverse of :func:`canonicalise` (eq. 5; eq. 4 gives t and R of a waypoint and its tangent)."""
     _check(motion, goal)
     return moved(turned(motion, goal.heading), np.array([goal.x, 0, goal.z]))
 

@@ -1,4 +1,4 @@
-"""Chaining actions: walk, transition in, hold, transition out, walk on  [Continual 3.2].
+"""Chaining actions: walk, transition in, hold, transition out, walk on  [Continual 3.7].
 
 Between two places WalkNet walks; into a pose and out of it TransNet fills two seconds. A transition out ends in a
 stride, so that WalkNet can go on from there.

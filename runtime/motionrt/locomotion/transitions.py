@@ -1,4 +1,4 @@
-"""Transitions: two seconds from what a character does to a pose, wherever that pose stands  [Continual 3.4]."""
+"""Transitions: two seconds from what a character does to a pose, wherever that pose stands  [Continual 3.6]."""
 
 from __future__ import annotations
 

@@ -20,6 +20,7 @@ from motionrt.metrics.protocols import (
     all_pairs,
     all_with_threshold,
     dissimilar_subset,
+    least_similar_sum,
     most_dissimilar,
     small_batches,
 )
@@ -50,6 +51,7 @@ __all__ = [
     "foot_skate",
     "jerk",
     "keypoint_error",
+    "least_similar_sum",
     "localisation_accuracy",
     "matching",
     "matching_ranks",

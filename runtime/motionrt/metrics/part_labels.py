@@ -1,4 +1,4 @@
-"""Accuracy of body-part labels against answers of people: yes, no, or sometimes  [SINC 4.2]."""
+"""Accuracy of body-part labels against answers of people: yes, no, or sometimes  [SINC 3.1, Table 1]."""
 
 from __future__ import annotations
 

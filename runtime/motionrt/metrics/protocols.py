@@ -7,6 +7,8 @@ batches.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 import numpy.typing as npt
 
@@ -19,6 +21,9 @@ from motionrt.metrics.ranking import (
     checked_similarity,
     retrieval,
 )
+
+Choice = Callable[[npt.ArrayLike, int], npt.NDArray[np.int64]]
+"""Similarity of texts and a number -> the indices, ascending, of so many texts."""
 
 
 def all_pairs(similarity: npt.ArrayLike) -> Retrieval:
@@ -34,9 +39,14 @@ def all_with_threshold(similarity: npt.ArrayLike, text_similarity: npt.ArrayLike
     return retrieval(similarity, correct | np.eye(len(correct), dtype=bool))
 
 
-def dissimilar_subset(similarity: npt.ArrayLike, text_similarity: npt.ArrayLike, size: int = 100) -> Retrieval:
-    """Protocol (c): only the ``size`` pairs (all, when there are fewer) whose texts are least alike."""
-    chosen = most_dissimilar(text_similarity, size)
+def dissimilar_subset(
+    similarity: npt.ArrayLike, text_similarity: npt.ArrayLike, size: int = 100, choose: Choice | None = None
+) -> Retrieval:
+    """Protocol (c): only the ``size`` pairs (all, when there are fewer) whose texts are least alike.
+
+    ``choose`` says which these are: :func:`most_dissimilar` by default, :func:`least_similar_sum` as in the paper.
+    """
+    chosen = (choose or most_dissimilar)(text_similarity, size)
     return retrieval(checked_similarity(similarity)[np.ix_(chosen, chosen)])
 
 
@@ -79,6 +89,41 @@ def most_dissimilar(text_similarity: npt.ArrayLike, size: int = 100) -> npt.NDAr
         closest[chosen[-1]] = np.inf
         chosen.append(int(np.argmin(closest)))
     return np.sort(np.array(chosen, dtype=np.int64))
+
+
+def least_similar_sum(text_similarity: npt.ArrayLike, size: int = 100) -> npt.NDArray[np.int64]:
+    """Indices, ascending, of ``size`` texts whose similarities to each other have the smallest sum.
+
+    This is the quadratic knapsack problem of the paper with equal weights, solved approximately: the text that is most
+    like the others leaves until ``size`` are left, then the swap of a text inside with one outside that lowers the sum
+    most is made until there is none. Deterministic; ties go to the lower index.
+    """
+    matrix = checked_similarity(text_similarity)
+    if size < 1:
+        raise InvalidInputError(f"size must be at least 1, not {size}")
+    pairs = (matrix + matrix.T) / 2
+    np.fill_diagonal(pairs, 0.0)
+    inside = np.ones(len(pairs), dtype=bool)
+    sums = pairs.sum(axis=1)
+    while inside.sum() > size:
+        leaves = int(np.argmax(np.where(inside, sums, -np.inf)))
+        inside[leaves] = False
+        sums -= pairs[leaves]
+    while (swap := _best_swap(pairs, sums, inside)) is not None:
+        leaves, enters = swap
+        inside[leaves], inside[enters] = False, True
+        sums += pairs[enters] - pairs[leaves]
+    return np.flatnonzero(inside).astype(np.int64)
+
+
+def _best_swap(pairs: Floats, sums: Floats, inside: npt.NDArray[np.bool_]) -> tuple[int, int] | None:
+    """Who leaves and who enters so that the sum falls most; None where no swap lowers it."""
+    within, without = np.flatnonzero(inside), np.flatnonzero(~inside)
+    if not len(without):
+        return None
+    gains = sums[without][None] - sums[within][:, None] - pairs[np.ix_(within, without)]
+    best = np.unravel_index(int(np.argmin(gains)), gains.shape)
+    return (int(within[best[0]]), int(without[best[1]])) if gains[best] < -1e-9 else None
 
 
 def _others_mean(matrix: Floats) -> Floats:

@@ -10,6 +10,8 @@ import numpy.typing as npt
 from motionrt.errors import InvalidInputError
 
 THRESHOLDS = (0.3, 0.5, 0.7)
+CURVE = tuple(round(0.1 * step, 1) for step in range(1, 11))
+"""Overlaps of the accuracy curve of TMR 4.5."""
 
 
 def temporal_iou(first: npt.ArrayLike, second: npt.ArrayLike) -> npt.NDArray[np.float64]:

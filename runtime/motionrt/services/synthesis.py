@@ -306,7 +306,7 @@ class Synthesis(Service):
         sampler: str = DEFAULT_SAMPLER,
         temperature: float = 1.0,
     ) -> Motion:
-        """One motion out of several: each moves some parts of the body (SINC 3.2).
+        """One motion out of several: each moves some parts of the body (SINC 3.1).
 
         Whoever needs fewer parts lies on top; a leg or "global" takes both legs, the global orientation and the
         translation along; see :func:`motionrt.synthesis.composing.compose`.

@@ -1,7 +1,7 @@
 """A canvas of frames on which several texts hold at their times and for their parts of the body, denoised as one.
 
 At every step of the sampling each text's piece is denoised by itself; where pieces overlap in time they pass into each
-other, and every part of the body belongs to the piece that needs fewest parts (SINC 3.2). So transitions and seams are
+other, and every part of the body belongs to the piece that needs fewest parts (SINC 3.1). So transitions and seams are
 generated and not cut (spatio-temporal stitching, Petrovich et al. 2024).
 """
 

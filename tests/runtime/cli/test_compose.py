@@ -219,3 +219,25 @@ def test_wrong_options_are_refused_for_files_too(
     assert main(["compose", file, file, "-o", str(out), *option, *map(str, MODELS)]) == 1
     assert option[0].strip("-") in capsys.readouterr().err
     assert not out.exists()
+
+
+def test_a_file_of_labels_becomes_a_file_of_parts(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    labels, out = tmp_path / "labels.txt", tmp_path / "parts.jsonl"
+    labels.write_text(
+        "kick with the right leg\n# no label\n\nshake the head\nkick with the right leg\n", encoding="utf-8"
+    )
+    assert main(["parts", "--file", str(labels), "-o", str(out)]) == 0
+    rows = [json.loads(line) for line in out.read_text(encoding="utf-8").splitlines()]
+    assert rows == [
+        {"text": "kick with the right leg", "labeller": "rules", "parts": ["right leg"]},
+        {"text": "shake the head", "labeller": "rules", "parts": ["torso"]},
+    ]
+    assert "2 texts" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("arguments", [[], ["nod", "--file", "x"], ["--file", "x"], ["nod", "-o", "x"]])
+def test_parts_want_one_text_or_a_file_with_its_output(
+    arguments: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["parts", *arguments]) == 1
+    assert "give one TEXT, or --file LABELS with -o PARTS.jsonl" in capsys.readouterr().err

@@ -20,7 +20,7 @@ from motionrt_training.corpora.reading import read_corpus
 from motionrt_training.evaluate.files import FilesRow
 from motionrt_training.evaluate.moments import evaluate_moments
 from motionrt_training.evaluate.pairs import PairSet, read_pairs
-from motionrt_training.evaluate.protocols import by_style, evaluate
+from motionrt_training.evaluate.protocols import Protocols, by_style, evaluate
 from motionrt_training.evaluate.report import MomentLine, Report, Result
 
 WORDS = ("walk", "run", "jump", "sit")
@@ -51,14 +51,14 @@ def unlike(texts: list[str]) -> np.ndarray:
 
 
 def test_a_perfect_embedder_is_perfect_under_every_protocol() -> None:
-    rows = evaluate(Oracle(), pairs_of(), unlike, styles=2)
+    rows = evaluate(Oracle(), pairs_of(), unlike, Protocols(2))
     assert [row.protocol[:3] for row in rows] == ["(a)", "(b)", "(c)", "(d)"]
     for row in rows:
         assert row.text_to_motion.recall == row.motion_to_text.recall == dict.fromkeys(RECALL_AT, 100.0)
 
 
 def test_wrong_texts_never_rank_first_and_styles_are_averaged() -> None:
-    row = evaluate(Oracle(wrong=True), pairs_of(), unlike, styles=2)[0]
+    row = evaluate(Oracle(wrong=True), pairs_of(), unlike, Protocols(2))[0]
     assert (row.pairs, row.text_to_motion.recall[1], row.text_to_motion.queries) == (4, 0.0, 4)
 
 
@@ -134,13 +134,13 @@ def test_moments_of_a_recording_with_two_halves_are_found_and_chance_is_lower() 
 
 
 def test_the_report_names_pairs_baselines_and_moments() -> None:
-    rows = evaluate(Oracle(), pairs_of(), unlike, styles=1)
+    rows = evaluate(Oracle(), pairs_of(), unlike, Protocols(1))
     moment = evaluate_moments(Halves(), corpus_of(walking(180, fps=30)), (20,), style=0)
     styles, contrasts = by_style(Oracle(), pairs_of()), {"side": 90.0, "side_captions": 10.0, "path": 75.0}
     results = [Result(name, "4 pairs", rows, styles, contrasts) for name in ("exported", "no filter")]
     files = [("exported", FilesRow(0.99, 0.98, 31))]
     page = Report("evaluate it", "toy.npz", results[:1], results[1:], files, [MomentLine("short", moment)]).markdown()
-    assert "Written by `evaluate it` from `toy.npz`" in page
+    assert "Written by `evaluate it` from `toy.npz`: whose data it is, is not stated." in page
     assert "| no filter | 4 | 100.0 |" in page
     assert "| exported | 4 pairs | 90.0 | 10 | 75.0 | nan |" in page
     assert "| exported | 31 | 0.9900 | 0.9800 |" in page

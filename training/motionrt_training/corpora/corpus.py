@@ -76,17 +76,15 @@ class MotionCorpus:
         With a report, recordings that cannot be read and clips that begin behind their ends are noted there; without
         one the first of them is an error.
         """
-        read = lru_cache(maxsize=2)(self._read)
+        read = lru_cache(maxsize=2)(self.recording)
         for clip in self.clips:
             recording = read(clip.path)
-            if recording is None:
-                continue
-            if self.report is not None and clip.start_s >= recording.duration:
-                self.report.skip(clip.id, "begins behind the end of its recording")
-                continue
-            yield clip, recording.between(clip.start_s, recording.duration if clip.end_s is None else clip.end_s)
+            motion = None if recording is None else self.cut(clip, recording)
+            if motion is not None:
+                yield clip, motion
 
-    def _read(self, path: Path) -> Motion | None:
+    def recording(self, path: Path) -> Motion | None:
+        """A whole recording; None where it cannot be read and there is a report to note it in."""
         try:
             return self.loader(path)
         except (FormatError, RigError) as error:
@@ -94,3 +92,10 @@ class MotionCorpus:
                 raise
             self.report.skip(str(path), f"cannot be read ({error.reason if isinstance(error, FormatError) else error})")
             return None
+
+    def cut(self, clip: Clip, recording: Motion) -> Motion | None:
+        """The clip's part of its recording; None where it begins behind its end and there is a report to note it in."""
+        if self.report is not None and clip.start_s >= recording.duration:
+            self.report.skip(clip.id, "begins behind the end of its recording")
+            return None
+        return recording.between(clip.start_s, recording.duration if clip.end_s is None else clip.end_s)

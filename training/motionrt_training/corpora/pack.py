@@ -1,8 +1,9 @@
 """The packed corpus: features of every clip, computed once into one ``.npz``.
 
-Arrays: ``features`` ``(frames of all clips, 263)`` float16, ``start`` and ``length`` ``(clips,)`` int64 into them, and
+Arrays: ``features`` ``(frames of all clips, 263)`` float16, ``start`` and ``length`` ``(clips,)`` int64 into them,
 ``meta``, a JSON list with ``id``, ``split``, ``texts``, ``texts_mirror`` (what is said of the mirror image), ``group``,
-``source`` and ``windows`` of each (see `motionrt_training.packed`).
+``source`` and ``windows`` of each (see `motionrt_training.packed`), and ``provenance``, a JSON list that says whose
+data it is (`motionrt_training.data_record`).
 
     python -m motionrt_training.corpora.pack mocap ../shared/data/mocap --unpacked runs/more -o runs/mocap.npz
     python -m motionrt_training.corpora.pack cmu ../shared/data/mocap/cmu -o runs/cmu.npz
@@ -13,7 +14,7 @@ from __future__ import annotations
 
 import argparse
 import json
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
@@ -26,19 +27,23 @@ from motionrt.motion.features import guo263
 from motionrt_training.command import reports_errors
 from motionrt_training.corpora.corpus import Clip
 from motionrt_training.corpora.joining import joined_clips
-from motionrt_training.corpora.mocap import Recording, read_mocap
+from motionrt_training.corpora.mocap import Recording, provenance, read_mocap
 from motionrt_training.corpora.reading import add_options, read_named
 from motionrt_training.corpora.stretches import recorded_clips, take_pairs
 from motionrt_training.corpora.text_mirror import mirror_text
 from motionrt_training.corpora.windows import windows_of
+from motionrt_training.data_record import DataRecord, data_record
 
 Row = tuple[NDArray[np.float16], dict[str, object]]
 
 
-def pack(rows: Iterable[Row], path: str | Path, *, joined: int = 0, seed: int = 1) -> Path:
+def pack(
+    rows: Iterable[Row], path: str | Path, *, joined: int = 0, seed: int = 1, record: DataRecord | None = None
+) -> Path:
     """Write rows of features, texts and windows to ``path``; returns it.
 
-    ``joined``: so many clips more, each of two training clips one after the other ("A, then B").
+    ``joined``: so many clips more, each of two training clips one after the other ("A, then B"). ``record``: whose data
+    it is.
     """
     rows = list(rows)
     training = [row for row in rows if row[1]["split"] == "train"]
@@ -52,6 +57,7 @@ def pack(rows: Iterable[Row], path: str | Path, *, joined: int = 0, seed: int = 
         start=np.cumsum(lengths) - lengths,
         length=lengths,
         meta=json.dumps([meta for _, meta in rows], ensure_ascii=False),
+        provenance=json.dumps(record or []),
     )
     return target
 
@@ -89,18 +95,20 @@ def main() -> None:
     parser.add_argument("--jobs", type=int, default=2, help="mocap: processes (default: %(default)s)")
     parser.add_argument("-o", "--out", required=True, help="the .npz to write")
     args = parser.parse_args()
-    pack(_rows(args), args.out, joined=args.joined)
-
-
-def _rows(args: argparse.Namespace) -> Iterator[Row]:
-    if args.corpus != "mocap":
-        corpus = read_named(args)
-        yield from rows_of(tqdm(corpus.motions(), total=len(corpus), desc="packing", unit="clip"))
-        print(corpus.report or f"{corpus.name}: {len(corpus)} clips")
+    if args.corpus == "mocap":
+        recordings = read_mocap(args.folder, args.unpacked, args.sources)
+        rows = _rows_of_mocap((*recordings, *take_pairs(recordings, Path(args.folder) / "cmu")), args.jobs)
+        pack(rows, args.out, joined=args.joined, record=provenance(recordings))
         return
-    recordings = read_mocap(args.folder, args.unpacked, args.sources)
-    recordings = (*recordings, *take_pairs(recordings, Path(args.folder) / "cmu"))
-    with ProcessPoolExecutor(args.jobs) as pool:
+    corpus = read_named(args)
+    rows = rows_of(tqdm(corpus.motions(), total=len(corpus), desc="packing", unit="clip"))
+    record = data_record(corpus.name, len({clip.path for clip in corpus.clips}), args.licence, args.origin)
+    pack(rows, args.out, joined=args.joined, record=record)
+    print(corpus.report or f"{corpus.name}: {len(corpus)} clips")
+
+
+def _rows_of_mocap(recordings: Sequence[Recording], jobs: int) -> Iterator[Row]:
+    with ProcessPoolExecutor(jobs) as pool:
         done = pool.map(_recorded, recordings, range(len(recordings)), chunksize=8)
         for rows in tqdm(done, total=len(recordings), desc="packing", unit="recording"):
             yield from rows

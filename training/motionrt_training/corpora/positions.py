@@ -12,7 +12,7 @@ from __future__ import annotations
 import argparse
 import json
 import logging
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
@@ -24,6 +24,7 @@ from tqdm import tqdm
 
 from motionrt.errors import FormatError, RigError
 from motionrt_training.corpora.mocap import Recording, provenance, read_mocap
+from motionrt_training.data_record import DataRecord
 
 FPS = 20.0
 SHORTEST = 8  # frames of a segment or a recording that are worth training on
@@ -59,6 +60,11 @@ def pack_positions(recordings: Iterable[Recording], path: str | Path) -> Path:
     with ProcessPoolExecutor(2) as pool:
         found = tqdm(pool.map(_row, recordings, chunksize=8), total=len(recordings), unit="recording")
         rows = [row for row in found if row is not None]
+    return write_positions(rows, path, provenance(recordings))
+
+
+def write_positions(rows: Sequence[Row], path: str | Path, record: DataRecord) -> Path:
+    """Write joints and what is said of them, and whose data it is, to ``path``; returns it."""
     lengths = np.array([len(joints) for joints, _ in rows])
     target = Path(path)
     target.parent.mkdir(parents=True, exist_ok=True)
@@ -68,7 +74,7 @@ def pack_positions(recordings: Iterable[Recording], path: str | Path) -> Path:
         start=np.cumsum(lengths) - lengths,
         length=lengths,
         meta=json.dumps([meta for _, meta in rows], ensure_ascii=False),
-        provenance=json.dumps(provenance(recordings)),
+        provenance=json.dumps(record),
     )
     return target
 

@@ -48,6 +48,8 @@ def add_options(parser: argparse.ArgumentParser, *others: str) -> None:
     parser.add_argument("--amass", help="the AMASS folder that kitml, humanml3d and babel annotate")
     parser.add_argument("--labels", choices=SPELLINGS, help="babel: labels as typed (raw) or spelt alike (proc)")
     parser.add_argument("--whole", action="store_true", help="babel: labels of whole sequences, too")
+    parser.add_argument("--licence", help="terms of the data, for the record that models carry (default: not stated)")
+    parser.add_argument("--origin", help="who published the data, for that record (default: not stated)")
     parser.add_argument("--every", action="store_true", help="babel_pairs: keep 'stand' and pairs seen in training")
 
 

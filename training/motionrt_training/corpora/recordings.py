@@ -26,9 +26,11 @@ from motionrt.formats.motion_pack import MotionPack
 from motionrt.motion import Motion
 from motionrt_training.corpora.cmu import read_cmu
 from motionrt_training.corpora.corpus import SPLITS
-from motionrt_training.corpora.mocap import CMU, Recording, provenance, read_mocap
+from motionrt_training.corpora.mocap import CMU, CMU_LICENCE, Recording, provenance, read_mocap
+from motionrt_training.data_record import DataRecord, data_record
 
 FPS = 30.0
+LOCOMOTION_LICENCE = "MIT"
 LOCOMOTION_TEST = ("jl_walk_run_short",)  # held out: the other walk of the same rig is trained on
 RECORDED = ("apache_snu", "cmu_more", "mit_snu_biped")
 """Sources of the second delivery that were recorded from people, under terms that let weights be shipped."""
@@ -99,12 +101,10 @@ def pack_recordings(
         tuple(ids[k] for k in kept),
         tuple(splits[k] for k in kept),
     )
-    target = Path(out)
-    target.parent.mkdir(parents=True, exist_ok=True)
-    with target.open("wb") as file:
-        recordings.pack.write(file)
-    rows = {"ids": recordings.ids, "splits": recordings.splits, "provenance": provenance(more)}
-    target.with_suffix(".json").write_text(json.dumps(rows), encoding="utf-8")
+    of_cmu = sum(path.parent.parent.name == CMU for path, _ in files)
+    record = data_record(CMU, of_cmu, CMU_LICENCE, "mocap.cs.cmu.edu")
+    record += data_record("locomotion", len(files) - of_cmu, LOCOMOTION_LICENCE)
+    write_recordings(recordings, Path(out), [*record, *provenance(more)])
     return recordings
 
 
@@ -117,6 +117,15 @@ def _read(job: Path | Recording) -> Motion | None:
     except (FormatError, RigError) as error:
         log.warning("left out: %s: %s", job.id, error)
         return None
+
+
+def write_recordings(recordings: Recordings, path: Path, record: DataRecord) -> None:
+    """Write what :func:`load_recordings` reads, and whose data it is."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with path.open("wb") as file:
+        recordings.pack.write(file)
+    rows = {"ids": recordings.ids, "splits": recordings.splits, "provenance": record}
+    path.with_suffix(".json").write_text(json.dumps(rows), encoding="utf-8")
 
 
 def load_recordings(path: str | Path) -> Recordings:

@@ -28,6 +28,7 @@ from motionrt.motion.features import ego77
 from motionrt.text import attribute_targets, parse_query, slots_of_motion
 from motionrt_training.corpora.composed import acting_arms, with_arms
 from motionrt_training.corpora.positions import CaptionedSpan, PackedRecording, unpack_positions
+from motionrt_training.data_record import data_of
 from motionrt_training.simultaneous import sentence
 from motionrt_training.wording.measured import say_measured
 from motionrt_training.wording.saying import THEN
@@ -261,6 +262,7 @@ def pack_views(positions: str | Path, count: int, seed: int, path: str | Path, p
         length=lengths,
         **{name: np.stack([m[name] for m in metas]) for name in ("slots", "targets", "known")},
         words=json.dumps(words, ensure_ascii=False),
+        provenance=json.dumps(data_of(positions)),
     )
     return Path(path)
 

@@ -61,7 +61,7 @@ def stretches(recordings: Recordings, split: str) -> Iterator[tuple[str, Motion]
         if id_ in WALKS or id_ in RUNS:
             for part in locomotion_parts(motion):
                 yield id_, flat_ground(part)
-        elif "/" in id_ and not id_.startswith(NOT_PLAIN):  # of the second delivery
+        elif "/" in id_ and not id_.startswith(NOT_PLAIN):  # of the second delivery, or of any other corpus
             for part in free_parts(motion):
                 yield id_, flat_ground(part)
 

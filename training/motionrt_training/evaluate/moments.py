@@ -13,7 +13,9 @@ from pathlib import Path
 
 import numpy as np
 
+from motionrt.errors import InvalidInputError
 from motionrt.metrics import localisation_accuracy, temporal_iou
+from motionrt.metrics.temporal import THRESHOLDS
 from motionrt.motion.skeleton import FloatArray
 from motionrt.retrieval.moments import find_moments
 from motionrt.retrieval.windows import motion_features
@@ -32,23 +34,38 @@ class MomentRow:
 
 
 def evaluate_moments(
-    embedder: Embedder, corpus: MotionCorpus, lengths: Sequence[int], *, style: int = 1, chance: bool = False
+    embedder: Embedder,
+    corpus: MotionCorpus,
+    lengths: Sequence[int],
+    *,
+    style: int = 1,
+    chance: bool = False,
+    thresholds: Sequence[float] = THRESHOLDS,
 ) -> MomentRow:
     """Search every long recording of ``corpus`` for its segments with windows of ``lengths`` frames at 20 fps.
 
     ``chance`` replaces the texts by those of the recording's other segments, which shows what a wrong text finds.
+
+    Raises:
+        InvalidInputError: no recording has two segments or more.
     """
     found, truth = [], []
     recordings = _long_recordings(corpus)
     for path, segments in recordings.items():
-        features = motion_features(corpus.loader(path))
+        recording = corpus.loader(path)
+        features = motion_features(recording)
         captions = [clip.texts[style % len(clip.texts)] for clip in segments]
         shift, windows = int(chance), _Remembering(embedder)
         for clip, text in zip(segments, embedder.embed_text(captions[shift:] + captions[:shift]), strict=True):
             found.append(_best_span(windows, features, text, lengths))
-            truth.append((clip.start_s, clip.end_s))
+            truth.append((clip.start_s, recording.duration if clip.end_s is None else clip.end_s))
+    if not found:
+        raise InvalidInputError(f"no recording of {corpus.name} has two annotated segments; name another split")
     return MomentRow(
-        localisation_accuracy(found, truth), float(temporal_iou(found, truth).mean()), len(found), len(recordings)
+        localisation_accuracy(found, truth, thresholds),
+        float(temporal_iou(found, truth).mean()),
+        len(found),
+        len(recordings),
     )
 
 

@@ -37,3 +37,9 @@ def read_pairs(path: str | Path, split: str, source: str | None = None) -> PairS
         raise InvalidInputError(f"{path} has no clips in split '{split}'" + (f" of {source}" if source else ""))
     motions = tuple(corpus.motion(clip)[:WINDOW_FRAMES].astype(np.float32) for clip in clips)
     return PairSet(tuple(clip.id for clip in clips), motions, tuple(clip.texts for clip in clips))
+
+
+def sources_of(path: str | Path, split: str) -> list[str]:
+    """The named sources of a split, where there are several; else none, as all of it is one."""
+    found = sorted({clip.source for clip in load_packed(path).split(split) if clip.source})
+    return found if len(found) > 1 else []

@@ -25,14 +25,34 @@ class ProtocolRow:
     motion_to_text: metrics.Scores
 
 
-def evaluate(embedder: Embedder, pairs: PairSet, sentences: SentenceEmbedding, styles: int = 4) -> list[ProtocolRow]:
-    """All protocols: every motion against one caption of each of ``styles`` kinds, results averaged over the kinds."""
+@dataclass(frozen=True)
+class Protocols:
+    """How they are run.
+
+    Attributes:
+        styles: captions of so many styles are evaluated, each as a set of its own; 1 is the first caption, as in TMR.
+        subset: how protocol (c) chooses, ``"farthest"`` (:func:`motionrt.metrics.most_dissimilar`) or ``"knapsack"``
+            (:func:`motionrt.metrics.least_similar_sum`, as published).
+    """
+
+    styles: int = 4
+    subset: str = "farthest"
+
+
+SUBSETS = ("farthest", "knapsack")
+
+
+def evaluate(
+    embedder: Embedder, pairs: PairSet, sentences: SentenceEmbedding, how: Protocols | None = None
+) -> list[ProtocolRow]:
+    """All protocols: every motion against one caption of each style, results averaged over the styles."""
+    how = how or Protocols()
     motions = embedder.embed_motion(pairs.motions)
     runs = []
-    for style in range(styles):
+    for style in range(how.styles):
         captions = pairs.captions(style)
         similarity = embedder.embed_text(captions) @ motions.T
-        runs.append(_protocols(similarity, metrics.text_scores(sentences(captions))))
+        runs.append(_protocols(similarity, metrics.text_scores(sentences(captions)), how.subset))
     return [_average(name, pairs, [run[index][2] for run in runs]) for index, (name, pairs, _) in enumerate(runs[0])]
 
 
@@ -46,13 +66,16 @@ def by_style(embedder: Embedder, pairs: PairSet) -> list[ProtocolRow]:
     return rows
 
 
-def _protocols(similarity: FloatArray, text_similarity: metrics.Floats) -> list[tuple[str, int, metrics.Retrieval]]:
+def _protocols(
+    similarity: FloatArray, text_similarity: metrics.Floats, choice: str
+) -> list[tuple[str, int, metrics.Retrieval]]:
     size = len(similarity)
-    subset = min(100, size // 2)
+    subset = max(1, min(100, size // 2))
+    choose = metrics.least_similar_sum if choice == "knapsack" else metrics.most_dissimilar
     return [
         ("(a) all", size, metrics.all_pairs(similarity)),
         ("(b) all, threshold 0.95", size, metrics.all_with_threshold(similarity, text_similarity, 0.95)),
-        ("(c) dissimilar subset", subset, metrics.dissimilar_subset(similarity, text_similarity, subset)),
+        ("(c) dissimilar subset", subset, metrics.dissimilar_subset(similarity, text_similarity, subset, choose)),
         ("(d) batches of 32", min(32, size), metrics.small_batches(similarity, 32)),
     ]
 

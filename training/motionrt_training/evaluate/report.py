@@ -40,10 +40,17 @@ class Report:
     baselines: Sequence[Result]
     files: Sequence[tuple[str, FilesRow]]
     moments: Sequence[MomentLine]
+    data: str = "whose data it is, is not stated"
+    held_out: str = (
+        "Pairs of the test split, which no model of the tables was trained on if it was trained on this corpus."
+    )
+    first_text: bool = False
 
     def markdown(self) -> str:
         """The page."""
-        parts = [_INTRODUCTION.format(command=self.command, corpus=self.corpus)]
+        texts = _FIRST if self.first_text else _STYLED
+        said = {"command": self.command, "corpus": self.corpus, "data": self.data, "held_out": self.held_out}
+        parts = [_INTRODUCTION.format(**said, texts=texts)]
         parts += [f"### {result.name}, {result.pairs}\n\n{_by_protocol(result)}" for result in self.shipped]
         parts += [_STYLES, *(f"### {r.name}, {r.pairs}\n\n{_by_style(r)}" for r in self.shipped[:1])]
         parts += [_CONTRASTS, _contrast_table([*self.shipped, *self.baselines])]
@@ -98,14 +105,17 @@ def _files_table(files: Sequence[tuple[str, FilesRow]]) -> str:
 
 _INTRODUCTION = """# Search: results
 
-Written by `{command}` from `{corpus}`. Percent, but for the median rank (MedR); t2m: the text is the query, m2t: the
-motion is. Embeddings alone: no captions, file names, attributes or re-ranking.
+Written by `{command}` from `{corpus}`: {data}. Percent, but for the median rank (MedR); t2m: the text is
+the query, m2t: the motion is. Embeddings alone: no captions, file names, attributes or re-ranking.
 
 ## Retrieval on the test split
 
-Pairs of recordings that were never trained on. Every motion has captions of different style; each style is evaluated
-as a set of its own and the results are averaged. Many test clips are nearly alike (a dozen straight walks, a dozen
-salsa clips), which caps R@1 of protocol (a). Protocol (c) keeps the less alike half where there are fewer than 200."""
+{held_out} {texts} Test clips that are nearly alike (a dozen straight walks) cap R@1 of protocol (a).
+Protocol (c) keeps the less alike half where there are fewer than 200."""
+
+_STYLED = """Every motion has captions of different style; each style is evaluated as a set of its own and the results
+are averaged."""
+_FIRST = "The first caption of every motion is its query, as in the paper."
 
 _STYLES = """## Each style of caption, protocol (a)
 
@@ -136,5 +146,5 @@ the same trial show what the length of the windows alone brings."""
 
 _PAPER = """## For orientation: the paper
 
-Petrovich et al. 2023, tables 1 and 2, copied without the paper at hand: look them up there before citing them.
-Other data (HumanML3D, KIT-ML), far larger test sets: not comparable in absolute terms."""
+Petrovich et al. 2023, tables 1 and 2. Other data (HumanML3D, KIT-ML), far larger test sets: not comparable in absolute
+terms."""

@@ -1,4 +1,4 @@
-"""The transformer that WalkNet and TransNet share: full attention over the frames of a window  [Continual 3.2]."""
+"""The transformer that WalkNet and TransNet share: full attention over the frames of a window  [Continual 4.1]."""
 
 from __future__ import annotations
 

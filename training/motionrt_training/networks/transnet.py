@@ -1,4 +1,4 @@
-"""TransNet: the motion between some seed frames and a target pose  [Continual 3.4].
+"""TransNet: the motion between some seed frames and a target pose  [Continual 3.6].
 
 Frames stand in the target's frame, as in the paper. Hidden frames are first filled by coasting: everything leaves the
 last visible frame with the speed that it has there, soon moves evenly, and arrives at the next one. The transformer

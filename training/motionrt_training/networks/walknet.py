@@ -1,4 +1,4 @@
-"""WalkNet: the next frames of a walk towards a goal, from the last ones  [Continual 3.3].
+"""WalkNet: the next frames of a walk towards a goal, from the last ones  [Continual 3.5].
 
 Frames stand in the goal's frame, as in the paper. Inside, the network looks at them from where the last one stands:
 the same step in another direction then looks the same, and much less data is needed. It sees, of every frame, the

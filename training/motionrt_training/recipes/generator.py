@@ -17,6 +17,7 @@ import numpy as np
 
 from motionrt_training.backbones import open_backbone
 from motionrt_training.corpora.views import Views, load_views
+from motionrt_training.data_record import data_of
 from motionrt_training.generator_task import GeneratorSettings, GeneratorTask, SpokenLines
 from motionrt_training.generator_trial import FRAMES, Trial, looks, read_prompts
 from motionrt_training.options import from_namespace, recipe_parser
@@ -39,7 +40,7 @@ def train(args: argparse.Namespace) -> dict[str, float]:
         "corpus_sha256": hashlib.sha256(Path(args.corpus).read_bytes()).hexdigest(),
         "network": task.model.config,
     }
-    return Trainer(task, schedule, args.out, notes, args.init).run()
+    return Trainer(task, schedule, args.out, notes, args.init, data_of(args.corpus)).run()
 
 
 def recorded_looks(views: Views) -> dict[str, float]:

@@ -32,6 +32,7 @@ from motionrt_training.batches import padded
 from motionrt_training.checkpoint import load_any
 from motionrt_training.corpora.actions import ActionClip, read_actions
 from motionrt_training.corpora.recordings import load_recordings
+from motionrt_training.data_record import data_of
 from motionrt_training.latent_cache import Floats, Latents, cached_latents, encode_views
 from motionrt_training.networks.latent_denoiser import LatentDenoiser, draw_latents
 from motionrt_training.networks.temos import Temos
@@ -187,7 +188,7 @@ def train(args: argparse.Namespace) -> dict[str, float]:
     task = LatentDiffusionTask(latents, held_out_latents(temos, clips, data), speak, settings, schedule.seed)
     notes = {**dataclasses.asdict(settings), **dataclasses.asdict(data), "sources": sources}
     notes |= {"network": task.model.config, "backbone": backbone.fingerprint}
-    return Trainer(task, schedule, args.out, notes, args.init).run()
+    return Trainer(task, schedule, args.out, notes, args.init, data_of(args.corpus)).run()
 
 
 class TextLatents:

@@ -21,6 +21,7 @@ from torch import Tensor
 from motionrt.locomotion.posing.yaw import without_yaw
 from motionrt.motion import SMPL24
 from motionrt_training.corpora.recordings import Recordings, load_recordings
+from motionrt_training.data_record import data_of
 from motionrt_training.networks.kinematics import joint_positions
 from motionrt_training.networks.pose_prior import PosePrior, to_6d
 from motionrt_training.options import from_namespace, option, recipe_parser
@@ -152,7 +153,7 @@ def train(args: argparse.Namespace) -> dict[str, float]:
     torch.set_num_threads(schedule.threads or torch.get_num_threads())
     task = PosePriorTask(load_recordings(args.corpus), settings, schedule.seed)
     notes = {**dataclasses.asdict(settings), "network": task.model.config}
-    return Trainer(task, schedule, args.out, notes, args.init).run()
+    return Trainer(task, schedule, args.out, notes, args.init, data_of(args.corpus)).run()
 
 
 def parser() -> argparse.ArgumentParser:

@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 
 from motionrt_training.backbones import MiniLMBackbone
 from motionrt_training.checkpoint import load_any
+from motionrt_training.data_record import data_of
 from motionrt_training.networks.tmr import TMR
 from motionrt_training.options import from_namespace, recipe_parser
 from motionrt_training.packed import PackedCorpus, load_packed
@@ -54,7 +55,7 @@ def train(args: argparse.Namespace) -> dict[str, float]:
         "sentences": len(captions) + len(made),
         "network": task.model.config,
     }
-    return Trainer(task, schedule, args.out, notes, args.init).run()
+    return Trainer(task, schedule, args.out, notes, args.init, data_of(args.corpus)).run()
 
 
 class School:

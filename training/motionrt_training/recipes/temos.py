@@ -19,6 +19,7 @@ from motionrt_training.backbones import open_backbone
 from motionrt_training.checkpoint import load_any
 from motionrt_training.corpora.actions import read_actions
 from motionrt_training.corpora.recordings import load_recordings
+from motionrt_training.data_record import data_of
 from motionrt_training.networks.tmr import TMR
 from motionrt_training.options import from_namespace, recipe_parser
 from motionrt_training.temos_data import ActionData, SpokenTexts
@@ -36,7 +37,9 @@ def train(args: argparse.Namespace) -> dict[str, float]:
     if args.text_from:
         task.model.text_encoder.load_state_dict(load_any(args.text_from, TMR).text_encoder.state_dict())
     notes = {**dataclasses.asdict(settings), **dataclasses.asdict(data), "network": task.model.config}
-    return Trainer(task, schedule, args.out, {**notes, "backbone": backbone.fingerprint}, args.init).run()
+    return Trainer(
+        task, schedule, args.out, {**notes, "backbone": backbone.fingerprint}, args.init, data_of(args.corpus)
+    ).run()
 
 
 def parser() -> argparse.ArgumentParser:

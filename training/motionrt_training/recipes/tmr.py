@@ -15,6 +15,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from motionrt_training.backbones import open_backbone
+from motionrt_training.data_record import data_of
 from motionrt_training.options import from_namespace, recipe_parser
 from motionrt_training.packed import load_packed
 from motionrt_training.text_cache import cached_features
@@ -35,7 +36,7 @@ def train(args: argparse.Namespace) -> dict[str, float]:
         "corpus_sha256": hashlib.sha256(Path(args.corpus).read_bytes()).hexdigest(),
         "network": task.model.config,
     }
-    return Trainer(task, schedule, args.out, notes, args.init).run()
+    return Trainer(task, schedule, args.out, notes, args.init, data_of(args.corpus)).run()
 
 
 def parser() -> argparse.ArgumentParser:

@@ -25,6 +25,7 @@ from motionrt.motion import SMPL24, Motion
 from motionrt.motion.features import ccf219
 from motionrt.motion.features.ccf219 import FPS
 from motionrt_training.corpora.recordings import Recordings, load_recordings
+from motionrt_training.data_record import data_of
 from motionrt_training.networks import kinematics
 from motionrt_training.networks.kinematics import nearer_so3
 from motionrt_training.networks.transnet import FRAMES, SEED, TransNet, turned_pelvis
@@ -322,7 +323,7 @@ def train(args: argparse.Namespace) -> dict[str, float]:
     schedule, settings = from_namespace(Schedule, args), from_namespace(TransNetSettings, args)
     task = TransNetTask(load_recordings(args.corpus), settings, schedule.seed)
     notes = {**dataclasses.asdict(settings), "network": task.model.config}
-    return Trainer(task, schedule, args.out, notes, args.init).run()
+    return Trainer(task, schedule, args.out, notes, args.init, data_of(args.corpus)).run()
 
 
 def parser() -> argparse.ArgumentParser:

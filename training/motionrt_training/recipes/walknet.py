@@ -1,4 +1,4 @@
-"""Train WalkNet: the next second of a walk towards a goal  [Continual 3.3].
+"""Train WalkNet: the next second of a walk towards a goal  [Continual 3.5].
 
     python -m motionrt_training.recipes.walknet --corpus runs/recordings.npz --out runs/walknet --minutes 60
 
@@ -13,6 +13,7 @@ import dataclasses
 from collections.abc import Sequence
 
 from motionrt_training.corpora.recordings import load_recordings
+from motionrt_training.data_record import data_of
 from motionrt_training.options import from_namespace, recipe_parser
 from motionrt_training.trainer import Schedule, Trainer
 from motionrt_training.walk_pool import load_or_make
@@ -28,7 +29,7 @@ def train(args: argparse.Namespace) -> dict[str, float]:
     )
     task = WalkTask(train_pool, val_pool, settings, schedule.seed)
     notes = {**dataclasses.asdict(settings), "network": task.model.config}
-    return Trainer(task, schedule, args.out, notes, args.init).run()
+    return Trainer(task, schedule, args.out, notes, args.init, data_of(args.corpus)).run()
 
 
 def parser() -> argparse.ArgumentParser:

@@ -1,4 +1,4 @@
-"""Spatial composition: one body moved by several motions at once (SINC 3.2)."""
+"""Spatial composition: one body moved by several motions at once (SINC 3.1)."""
 
 from motionrt.synthesis.composing.combination import Combination, combination, compatible
 from motionrt.synthesis.composing.composition import compose

@@ -1,4 +1,4 @@
-"""Which of two motions moves which joint: steps 2 to 5 of SINC 3.2, from the body parts of their two labels."""
+"""Which of two motions moves which joint: steps 2 to 5 of SINC 3.1, from the body parts of their two labels."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ class Combination:
 
 
 def combination(parts_a: Iterable[str], parts_b: Iterable[str], *, override: bool = False) -> Combination:
-    """Combine the first motion, moved on purpose in ``parts_a``, with the second, in ``parts_b`` (SINC 3.2).
+    """Combine the first motion, moved on purpose in ``parts_a``, with the second, in ``parts_b`` (SINC 3.1).
 
     The paper's steps: (1) both are trimmed to the shorter; (2) B is the motion with fewer parts, the second one in a
     tie; (3) if B has a leg or "global", both legs, the global orientation and the translation come from B; (4) B's own

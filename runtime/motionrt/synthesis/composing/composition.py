@@ -36,7 +36,7 @@ def compose(
     override: bool = True,
     derive: Derive | None = None,
 ) -> Motion:
-    """One motion out of several (SINC 3.2, for two or more, with masks).
+    """One motion out of several (SINC 3.1, for two or more, with masks).
 
     Layers with ``parts`` are combined by the paper's rules: whoever has fewer parts lies on top, and a leg or
     "global" takes both legs, the global orientation and the translation along. Layers with a ``mask`` lie over those

@@ -24,7 +24,7 @@ class Layer:
 
     Attributes:
         motion: of the ``smpl24`` skeleton; a single frame is a pose that is held.
-        parts: the body parts that its action needs, as a labeller gives them: the rules of SINC 3.2 decide which
+        parts: the body parts that its action needs, as a labeller gives them: the rules of SINC 3.1 decide which
             joints it moves, and a leg or "global" takes both legs, the global orientation and the translation along.
         mask: exactly the joints that it moves, and no more: names of parts and of joints in any mixture.
         weight: how much its joints cover what lies below, from 0 to 1.

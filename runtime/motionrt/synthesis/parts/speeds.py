@@ -1,4 +1,4 @@
-"""`velocity_parts`: which parts move in a motion, by speed alone (the baseline of SINC 4.3)."""
+"""`velocity_parts`: which parts move in a motion, by speed alone (the baseline of SINC 3.1 and its Table 1)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""SINC 3.2, steps 2 to 5: which of two motions moves which joint."""
+"""SINC 3.1, steps 2 to 5: which of two motions moves which joint."""
 
 from __future__ import annotations
 
