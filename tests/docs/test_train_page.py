@@ -44,7 +44,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     own = f'DATA="babel_pairs {babel} --amass {amass}"\nBUDGET="{BUDGET}"\nVIEWS=40\n'
     binaries = root / "bin"
     binaries.mkdir()
-    for name, call in (("python", ""), ("motionrt", " -m motionrt.cli")):
+    for name, call in (("python", ""), ("motionrt", " -m motionrt")):
         (binaries / name).write_text(f'#!/bin/sh\nexec {sys.executable}{call} "$@"\n', encoding="utf-8")
         (binaries / name).chmod(0o755)
     paths = [str(ROOT / part) for part in ("runtime", "training", "export")]

@@ -46,7 +46,7 @@ PARTICLES = word_set("up down out off on over away back around together forward 
 NO_THINGS = word_set(  # what follows an article and is no thing in the hands
     "left right way corner circle bit little lot side sides body other front back floor ground air time times while "
     "degrees degree moment half quarter full second row few direction opposite place spot stairs beat rhythm line "
-    "curve series manner fashion position step steps turn whole more and"
+    "curve series manner fashion position step steps turn whole more and it them"
 )
 LOW = frozenset({"foot", "toe", "ankle", "shin", "heel", "calf", "floor", "ground"})  # one bends down to reach them
 

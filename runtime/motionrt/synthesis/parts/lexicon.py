@@ -8,13 +8,15 @@ from functools import cached_property, lru_cache
 from pathlib import Path
 
 from motionrt.errors import FormatError
-from motionrt.synthesis.parts.grammar import ARTICLES, LIMBS, PAIRING, PARTICLES, SIDES
+from motionrt.synthesis.parts.grammar import ARTICLES, LIMBS, PAIRING, PARTICLES, SIDES, word_set
 from motionrt.synthesis.parts.spelling import Spelling
 from motionrt.synthesis.parts.words import Word
 
 LEXICON_FILE = Path(__file__).parents[2] / "_assets" / "action_words.tsv"
 KINDS = ("gait", "act", "move", "reach", "grip", "still", "light", "big", "noun")
 CLOSED = frozenset({*SIDES, *LIMBS, *PAIRING, "forward", "backward", "backwards", "while", "without"})
+COUNTS = word_set("two three four five six seven eight nine ten few several some small big large long little tiny")
+"""How many and how large, which a phrase does not name: "take two small steps"."""
 _PASSED = ARTICLES | SIDES | {"both"}  # "tap the left foot" is "tap foot"
 _CODES = frozenset("AaLlTGW-/")
 
@@ -80,7 +82,7 @@ def _end_of(phrase: tuple[str, ...], words: Sequence[Word], start: int) -> int |
     """The index after ``phrase`` where it stands at ``start``, else None."""
     place = start
     for number, base in enumerate(phrase):
-        passed = frozenset() if base in SIDES else ARTICLES if base in PARTICLES else _PASSED
+        passed = frozenset() if base in SIDES else ARTICLES if base in PARTICLES else _PASSED | COUNTS
         while number and place < len(words) and words[place].text in passed:
             place += 1
         if place >= len(words) or base not in words[place].bases:

@@ -71,7 +71,7 @@ def resolve(act: Act, limbs: Sequence[Limb], clause: Clause, words: Sequence[Wor
         found = [Found(_union(movers), "the limb that moves")]
         found += [Found(limb.parts, "the limb it is done with") for limb in means]
         return found + _meeting(movers, targets) + _stooping(act, clause, found, words)
-    found = [_base(act, code, clause, targets, words, lexicon)]
+    found = [_on_one_foot(act, _base(act, code, clause, targets, words, lexicon), targets, words)]
     if kind == "grip":
         found += [Found(limb.parts, "the limb that is held") for limb in targets if limb.region == LEG]
         if any(limb.region == LEG for limb in targets) and _held_up(targets, words):
@@ -112,7 +112,17 @@ def _base(
     aside = [limb for limb in targets if limb.region == ARM and limb.told and len(limb.sides) == 1]
     if aside and "a" in code:
         return Found(coded(code, SIDES - aside[0].sides), "lexicon, the hand opposite to the arm that it goes to")
-    return Found(coded(code), "lexicon; no side said: right")
+    return Found(
+        coded(code, BOTH if "a" in code else RIGHT), f"lexicon; no side said: {'both' if 'a' in code else 'right'}"
+    )
+
+
+def _on_one_foot(act: Act, found: Found, targets: Sequence[Limb], words: Sequence[Word]) -> Found:
+    """Hops and jumps on one foot move that leg alone."""
+    feet = [limb for limb in targets if limb.region == LEG and limb.told and words[limb.start - 1].text == "on"]
+    if act.entry.phrase[0] not in _HOPS or len(feet) != 1 or len(feet[0].sides) != 1:
+        return found
+    return Found((found.parts - set(LEGS)) | feet[0].parts, "the foot that it is done on")
 
 
 def _several(act: Act, words: Sequence[Word]) -> bool:
@@ -179,6 +189,7 @@ def _meeting(movers: Sequence[Limb], targets: Sequence[Limb]) -> list[Found]:
     return []
 
 
+_HOPS = frozenset({"hop", "jump", "bounce", "skip"})
 _FACE = frozenset({"eye", "mouth", "lip", "eyebrow", "brow", "jaw"})
 _FACIAL = frozenset({"open", "close", "shut", "squeeze", "move"})
 _MEETING = frozenset({"elbow", "knee", "chin", "forehead", "nose"})

@@ -54,7 +54,7 @@ def test_phrases_whose_parts_are_ambiguous_come_out_as_documented(text: str, exp
     [
         ("wave the left hand", "la"),
         ("wave with both hands", "A"),
-        ("wave", "ra"),
+        ("wave", "A"),
         ("throw a ball with his left", "la"),
         ("left-handed throw", "la"),
         ("a left jab", "la"),
@@ -105,10 +105,10 @@ def test_clauses_add_up(text: str, expected: str) -> None:
         ("walk with the arms still", "L g"),
         ("keeping the torso still, swing both arms", "A"),
         ("rotate the head keeping the shoulders still", "t"),
-        ("run, not moving the left arm", "L g"),
+        ("run, not moving the left arm", "ra L g"),
         ("neither arm moves while he walks", "L g"),
         ("walk without bending the knees", "L g"),
-        ("don't move the legs, only wave", "ra"),
+        ("don't move the legs, only wave", "A"),
         ("stand still", "L"),
         ("stand still and look around", "t"),
         ("stand with legs still", "L"),
@@ -125,9 +125,9 @@ def test_denial_rest_and_posture(text: str, expected: str) -> None:
 @pytest.mark.parametrize(
     ("text", "expected"),
     [
-        ("turn left", "L g"),
+        ("turn left", "L g t"),
         ("turn the head left", "t"),
-        ("turn the page", "ra"),
+        ("turn the page", "A"),
         ("turn the steering wheel", "A"),
         ("bend forward", "t"),
         ("bend the knees", "L"),
@@ -138,9 +138,9 @@ def test_denial_rest_and_posture(text: str, expected: str) -> None:
         ("move the hips", "t g"),
         ("roll", "W"),
         ("roll the left shoulder", "la"),
-        ("pick up a cup", "ra"),
+        ("pick up a cup", "A"),
         ("pick up a box", "A t"),
-        ("pick up a pen from the floor", "ra t"),
+        ("pick up a pen from the floor", "A t"),
         ("lift a box", "A"),
         ("step back", "L g"),
         ("arch the back", "t"),
@@ -155,7 +155,7 @@ def test_the_object_decides_what_a_verb_moves(text: str, expected: str) -> None:
     "text", ["waves", "waving", "waved", "WAVE!", "a person waves", "does a wave", "wvae", "  wave\n"]
 )
 def test_inflection_case_subjects_and_exchanged_letters_do_not_matter(text: str) -> None:
-    assert LABEL(text) == {"right arm"}
+    assert LABEL(text) == {"left arm", "right arm"}
 
 
 def test_a_slip_is_mended_only_where_nothing_else_is_known() -> None:
@@ -175,7 +175,7 @@ def test_an_encoder_finds_the_nearest_phrase_for_unknown_words() -> None:
     label = RulesLabeller(encoder=encode)
     assert label("zorble") == parts("L g")
     assert "'kneel'" in label.explain("zorble")[-1].rule
-    assert label("wave") == parts("ra"), "known words need no encoder"
+    assert label("wave") == parts("A"), "known words need no encoder"
 
 
 def test_explain_names_words_and_rules_that_add_up_to_the_answer() -> None:
