@@ -369,7 +369,7 @@ def test_the_command_asks_the_rules_and_watches_the_motions(corpus, tmp_path, ca
     assert [sorted(rows) for rows in tables.values()] == [
         ["most common answer", "rules"],
         ["most common answer", "rules"],
-        ["most common answer", "rules", "velocity"],
+        ["most common answer", "rules", "velocity", "velocity, as published"],
     ]
     assert tables["phrases answered by hand"]["rules"]["accuracy"]["right arm"] == 1.0
     assert "| rules | 2 | 1.000 | 1.000 |" in capsys.readouterr().out

@@ -11,8 +11,9 @@ from motionrt.motion.features import sinc135
 from motionrt.synthesis.composing import combination
 from motionrt_training.corpora.actions import Action, ActionClip
 from motionrt_training.networks.egocentric import from_egocentric, mirrored, to_egocentric
+from motionrt_training.networks.temos import Temos
 from motionrt_training.simultaneous import combined, gerund, random_combination, sentence
-from motionrt_training.temos_data import ActionData, Examples, crop, prolonged
+from motionrt_training.temos_data import ActionData, Examples, crop, prolonged, separated
 
 PLAIN = ActionData(captions=0.0, synthetic=0.0, mirror=False, tempo=0.0)
 
@@ -151,3 +152,43 @@ def test_what_never_comes_back_to_an_earlier_pose_ends_where_it_ends() -> None:
     assert torch.equal(prolonged(fall, 140), fall)
     long = frames(walking(160, 30.0))
     assert torch.equal(prolonged(long, 140), long)
+
+
+def test_synthetic_pairs_replace_real_singles_alone_unless_all_are_to_be() -> None:
+
+    walk, wave = Action("walk", frozenset({"left leg"})), Action("wave", frozenset({"right arm"}))
+    frames = torch.zeros(80, 136)
+    clips = [
+        ActionClip("single", "train", frames, (walk,), ("somebody walks",)),
+        ActionClip("other", "train", frames, (wave,), ("somebody waves",)),
+        ActionClip("pair", "train", frames, (walk, wave), ("somebody walks and waves",)),
+    ]
+
+    def texts(**options: object) -> set[str]:
+        data = ActionData(captions=0.0, synthetic=1.0, mirror=False, **options)
+        made, rng = Examples(clips, data), np.random.default_rng(1)
+        made._synthetic = lambda *_: (frames, ("synthetic",))
+        return {kind(made.draw(rng).texts[0]) for _ in range(60)}
+
+    def kind(text: str) -> str:
+        both = "wav" in text and "walk" in text
+        return "synthetic" if text == "synthetic" else "real pair" if both else "single"
+
+    assert texts() == {"synthetic", "real pair"}
+    assert texts(replaces="all") == {"synthetic"}
+    assert texts(pairs=False) == {"synthetic"}
+
+
+def test_a_separation_token_stands_between_texts_and_is_learnt() -> None:
+
+    parts = [np.ones((2, 384), np.float32), np.full((3, 384), 2.0, np.float32)]
+    rows = separated(parts)
+    assert rows[:, 0].tolist() == [1, 1, 0, 2, 2, 2]
+    torch.manual_seed(0)
+    model = Temos(layers=1, ff=32, dropout=0.0, separation=True)
+    tokens, mask = torch.from_numpy(rows)[None], torch.ones(1, 6, dtype=torch.bool)
+    model.encode_text(tokens, mask).mu.sum().backward()
+    assert model.separator.grad is not None
+    assert float(model.separator.grad.abs().max()) > 0
+    assert Temos(**model.config).config == model.config
+    assert "separation" not in Temos(layers=1, ff=32).config

@@ -35,8 +35,12 @@ _NO_VERBS = ("left", "right")  # what stands first in "left arm up"
 def sentence(first: str, second: str, rng: np.random.Generator) -> str:
     """Two labels said at once, in random order, with a random conjunction."""
     pair = (first, second) if rng.random() < 0.5 else (second, first)
-    form = CONJUNCTIONS[int(rng.integers(len(CONJUNCTIONS)))]
-    for index, label in enumerate(pair):
+    return joined(*pair, CONJUNCTIONS[int(rng.integers(len(CONJUNCTIONS)))])
+
+
+def joined(first: str, second: str, form: str) -> str:
+    """Two labels in one of the forms of `CONJUNCTIONS`."""
+    for index, label in enumerate((first, second)):
         form = form.replace(f"{{{index}g}}", gerund(label)).replace(f"{{{index}}}", label)
     return form
 

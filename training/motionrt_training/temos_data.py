@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 import torch
@@ -19,6 +20,7 @@ from motionrt_training.networks.egocentric import HEIGHT, RATES, mirrored
 from motionrt_training.options import option
 from motionrt_training.simultaneous import combined, random_combination, sentence
 
+Features = TypeVar("Features", NDArray[np.float16], NDArray[np.float32])
 TRIES = 30  # to find a partner that fits
 REPEAT, FADE = 12, 8  # frames: the shortest repetition, and how long it takes to get into it
 NEAR = 0.8  # how far apart, in height and 6D rotations, two poses may be to go on from one as from the other
@@ -31,7 +33,8 @@ class ActionData:
     captions: float = option(0.6, "part of the real clips that a caption tells; the others have their action labels")
     pairs: bool = option(True, "say two labels of a clip at once (off: single actions only)")
     real: float = option(1.0, "part of the training clips whose pairs of labels are said")
-    synthetic: float = option(0.3, "probability of a synthetic pair")
+    synthetic: float = option(0.3, "probability of a synthetic pair in place of a real example")
+    replaces: str = option("singles", "which examples: real singles alone, as in the paper, or all", ("singles", "all"))
     random_parts: bool = option(False, "compose synthetic pairs of random body parts")
     separate: bool = option(False, "encode the two labels of a pair separately (STE)")
     least_frames: int = option(60, "shortest batch, frames at 30 fps")
@@ -68,21 +71,32 @@ class Examples:
 
     def draw(self, rng: np.random.Generator, longest: int = 120) -> Example:
         """A crop of a real clip, or a synthetic pair, up to `longest` frames; half of them mirrored."""
-        synthetic = rng.random() < self.data.synthetic
-        frames, texts = self._synthetic(rng, longest) if synthetic else self._real(rng, longest)
+        number = int(rng.integers(len(self.clips)))
+        told = rng.random() < self.data.captions or not self.clips[number].actions
+        replaced = self.data.replaces == "all" or not self._is_pair(number, told)
+        if replaced and rng.random() < self.data.synthetic:
+            frames, texts = self._synthetic(rng, longest)
+        else:
+            frames, texts = self._real(number, told, rng, longest)
         if self.data.mirror and rng.random() < 0.5:
             frames, texts = mirrored(frames), tuple(mirror_text(text) for text in texts)
         return Example(frames, texts)
 
-    def _real(self, rng: np.random.Generator, longest: int) -> tuple[Tensor, tuple[str, ...]]:
-        number = int(rng.integers(len(self.clips)))
+    def _is_pair(self, number: int, told: bool) -> bool:
+        """Whether a clip shows two actions and its text says both: a caption, or its labels if pairs are said."""
+        return len(self.clips[number].actions) > 1 and (told or self._says_pair(number))
+
+    def _says_pair(self, number: int) -> bool:
+        """Whether both labels of a clip are said: a fixed, even choice of clips."""
+        return self.data.pairs and (number * 0.618034) % 1.0 < self.data.real
+
+    def _real(self, number: int, told: bool, rng: np.random.Generator, longest: int) -> tuple[Tensor, tuple[str, ...]]:
         clip = self.clips[number]
         frames = self._crop(clip, rng, longest)
-        if not clip.actions or rng.random() < self.data.captions:
+        if told:
             return frames, (clip.captions[int(rng.integers(len(clip.captions)))],)
         first, *others = (clip.actions[i].text for i in rng.permutation(len(clip.actions)))
-        said = self.data.pairs and (number * 0.618034) % 1.0 < self.data.real  # a fixed, even choice of clips
-        return frames, self.spoken(first, others[0], rng) if others and said else (first,)
+        return frames, self.spoken(first, others[0], rng) if others and self._says_pair(number) else (first,)
 
     def _synthetic(self, rng: np.random.Generator, longest: int) -> tuple[Tensor, tuple[str, ...]]:
         (clip, action), (other_clip, other) = self._pair(rng)
@@ -139,6 +153,16 @@ def prolonged(frames: Tensor, wanted: int) -> Tensor:
     return torch.cat((frames[: last + 1], part.repeat(count, 1)))[:wanted]
 
 
+def separated(parts: Sequence[Features]) -> Features:
+    """Token features (T, 384) of several texts, one behind the other; between two of them a row of zeros.
+
+    No token's features are zero; a network with a separation token has it in that place.
+    """
+    between = np.zeros((1, parts[0].shape[1]), parts[0].dtype)
+    rows = [row for part in parts for row in (between, part)]
+    return np.concatenate(rows[1:])
+
+
 class SpokenTexts:
     """Token features of texts, each computed once, when it is first said."""
 
@@ -146,8 +170,8 @@ class SpokenTexts:
         self.backbone, self._known = backbone, dict[str, NDArray[np.float16]]()
 
     def of(self, texts: Sequence[str]) -> NDArray[np.float16]:
-        """(T, 384) of a text, or of several encoded separately, one behind the other."""
-        return np.concatenate([self._one(text) for text in texts])
+        """(T, 384) of a text, or of several encoded separately, one behind the other (see `separated`)."""
+        return separated([self._one(text) for text in texts])
 
     def _one(self, text: str) -> NDArray[np.float16]:
         if text not in self._known:

@@ -26,17 +26,17 @@ VALIDATED = 64  # examples
 
 @dataclass(frozen=True)
 class TemosSettings:
-    """Network and losses; weights of the paper unless the help says otherwise."""
+    """Network and losses. SINC eq. 1 has no weights and names 6 heads; TEMOS and TMR weigh KL and latents by 1e-5."""
 
     d: int = option(256, "width and size of the latent")
     layers: int = option(6, "layers of each network")
-    heads: int = option(4, "attention heads")
+    heads: int = option(4, "attention heads (SINC: 6, which does not divide 256)")
     ff: int = option(1024, "feed-forward width")
     dropout: float = option(0.1, "dropout rate")
     patch: int = option(8, "frames per token of the motion networks (the paper: 1)")
-    batch: int = option(40, "examples per batch")
-    kl_weight: float = option(1e-4, "weight of the four KL terms (the paper: 1e-5)")
-    latent_weight: float = option(1e-4, "weight of the distance between the latents (the paper: 1e-5)")
+    batch: int = option(40, "examples per batch (SINC: 64)")
+    kl_weight: float = option(1e-4, "weight of the four KL terms (TEMOS: 1e-5; SINC eq. 1: 1)")
+    latent_weight: float = option(1e-4, "weight of the distance between the latents (TEMOS: 1e-5; SINC eq. 1: 1)")
     from_text: float = option(0.3, "part of the reconstructions that start from the text's latent (the paper: 0.5)")
     place: float = option(1.0, "weight of the joints' places about the pelvis, metres (the paper: 0)")
     speed: float = option(0.02, "weight of the joints' velocities over the ground, m/s (the paper: 0)")
@@ -57,7 +57,9 @@ class TemosTask:
         self.held_out = held_out_examples(held_out, data)
         torch.manual_seed(seed)
         s = settings
-        self.model: Temos = Temos(d=s.d, layers=s.layers, heads=s.heads, ff=s.ff, dropout=s.dropout, patch=s.patch)
+        self.model: Temos = Temos(
+            d=s.d, layers=s.layers, heads=s.heads, ff=s.ff, dropout=s.dropout, patch=s.patch, separation=data.separate
+        )
         set_statistics(self.model, [clip.frames for clip in self.train.clips])
 
     def batch(self, step: int) -> dict[str, Tensor]:

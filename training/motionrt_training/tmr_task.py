@@ -30,7 +30,7 @@ Look = tuple[PackedClip, View]
 
 @dataclass(frozen=True)
 class TmrSettings:
-    """Network, data and losses of TMR; weights and sizes of the paper unless the help says otherwise."""
+    """Network, data and losses of TMR. What the paper has otherwise says so; `docs/train.md` turns it off."""
 
     d: int = option(256, "width and size of the latent")
     layers: int = option(6, "layers of each network")
@@ -45,7 +45,7 @@ class TmrSettings:
     margin: bool = option(False, "margin loss in place of InfoNCE (table 3)")
     margin_size: float = option(1.0, "distance beyond which the margin loss leaves negatives alone")
     threshold: float | None = option(0.8, "text similarity (0 to 1) above which negatives are dropped (table 4)")
-    directions: bool = option(True, "never drop a negative whose side or direction words differ")
+    directions: bool = option(True, "never drop a negative whose side or direction words differ (not in the paper)")
     temperature: float = option(0.1, "temperature of InfoNCE")
     contrastive_weight: float = option(0.1, "weight of the contrastive term")
     kl_weight: float = option(1e-5, "weight of the four KL terms")
@@ -55,19 +55,21 @@ class TmrSettings:
         "alternate", "decode both latents, or a random one per motion with weight 2", ("both", "alternate")
     )
     mirror: bool = option(True, "mirror half of the motions, with left and right swapped in the text")
-    crop: float = option(0.6, "least part of a clip that a random crop keeps")
-    speed: float = option(0.1, "largest random change of speed")
+    crop: float = option(0.6, "least part of a clip that a random crop keeps (not in the paper)")
+    speed: float = option(0.1, "largest random change of speed (not in the paper)")
     most_frames: int = option(200, "longest crop, frames at 20 fps")
-    noise: float = option(0.02, "noise on the normalised features that the encoder sees")
-    token_dropout: float = option(0.0, "part of the text tokens hidden in training")
+    noise: float = option(0.02, "noise on the normalised features that the encoder sees (not in the paper)")
+    token_dropout: float = option(0.0, "part of the text tokens hidden in training (not in the paper)")
     equalise: bool = option(True, "one standard deviation per kind of feature")
     rotations: bool = option(True, "the motion encoder sees the rotations, which follow from the positions")
     decoder_layers: int | None = option(None, "layers of the decoder; none takes --layers")
-    twins: bool = option(True, "the mirror image of every clip and caption is in the same batch")
-    straightened: bool = option(True, "clips whose caption names a path are negatives of it without their turn")
+    twins: bool = option(True, "the mirror image of every clip and caption is in the same batch (not in the paper)")
+    straightened: bool = option(
+        True, "clips that name a path are negatives of it without their turn (not in the paper)"
+    )
     hard: float = option(3.0, "how many negatives a mirror image or a straightened clip counts for")
-    slots: float = option(0.3, "weight of telling the measured slots from a motion's latent, the parsed from a text's")
-    spoken: float = option(0.25, "part of the views whose text was made from what was measured")
+    slots: float = option(0.3, "weight of telling slots from a motion's and a text's latent (not in the paper)")
+    spoken: float = option(0.25, "part of the views whose text was made from what was measured (not in the paper)")
 
 
 class TmrTask:

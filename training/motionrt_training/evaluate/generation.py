@@ -29,13 +29,14 @@ from motionrt.motion.skeleton import FloatArray
 from motionrt.retrieval import motion_features
 from motionrt.retrieval.windows import WINDOW_FRAMES
 from motionrt.synthesis.generating import Generator
-from motionrt.synthesis.parts import RulesLabeller, velocity_parts
+from motionrt.synthesis.parts import Endpoint, PromptLabeller, RulesLabeller, relative_velocity_parts, velocity_parts
+from motionrt.synthesis.parts.prompting import STYLES
 from motionrt_training.backbones import Backbone, open_backbone
 from motionrt_training.corpora.actions import ActionClip, read_actions
 from motionrt_training.corpora.recordings import load_recordings
 from motionrt_training.evaluate import pair_tables, part_labels, prompts
 from motionrt_training.evaluate.latents import load_latents
-from motionrt_training.evaluate.simultaneous import LONGEST, read_action_pairs
+from motionrt_training.evaluate.simultaneous import LONGEST, WHILE, read_action_pairs
 from motionrt_training.evaluate.ways import WAYS, Way, composed, diffused, first_pose
 
 Result = tuple[str, Mapping[str, object]]  # Markdown, and everything for JSON
@@ -44,7 +45,7 @@ Result = tuple[str, Mapping[str, object]]  # Markdown, and everything for JSON
 def pairs(args: argparse.Namespace) -> Result:
     """Table 2 and 3 of SINC on the test split."""
     backbone = open_backbone("onnx", args.sentences)
-    found = read_action_pairs(args.recordings, args.captions, args.split, args.longest)
+    found = read_action_pairs(args.recordings, args.captions, args.split, args.longest, args.form)
     encoders: dict[str, pair_tables.MotionEncoder] = {}
     if args.encoder:
         encoders["TEMOS"] = load_latents(args.encoder, backbone).motion
@@ -76,14 +77,19 @@ def prompted(args: argparse.Namespace) -> Result:
 
 def parts(args: argparse.Namespace) -> Result:
     """Accuracy of the labellers."""
-    rules = {"rules": RulesLabeller()}
+    rules: dict[str, part_labels.Labeller] = {"rules": RulesLabeller()}
+    if args.endpoint:
+        endpoint = Endpoint(args.endpoint, args.llm)
+        rules |= {f"prompt: {style}": PromptLabeller(endpoint=endpoint, style=style) for style in STYLES}
     tables = {}
     if args.phrases:
         tables["phrases answered by hand"] = part_labels.on_phrases(rules, part_labels.read_phrases(args.phrases))
     if args.recordings and args.captions:
         clips = _clips(args, "test")
         tables["labels of the test clips"] = part_labels.on_labels(rules, clips)
-        tables["test clips, all labels together"] = part_labels.on_clips(rules, {"velocity": velocity_parts}, clips)
+        tables["test clips, all labels together"] = part_labels.on_clips(
+            rules, {"velocity": velocity_parts, "velocity, as published": relative_velocity_parts}, clips
+        )
     figures = {title: {name: row.as_dict() for name, row in rows.items()} for title, rows in tables.items()}
     return part_labels.part_page(tables), figures
 
@@ -123,6 +129,8 @@ def parser() -> argparse.ArgumentParser:
     table.add_argument("--sentences", type=Path, default=Path("models/tmr_text.int8.onnx"), help="text encoder")
     table.add_argument("--samples", type=int, default=0, help="samples of every pair, beside the mean latent's motion")
     table.add_argument("--split", default="test", help="train, val or test")
+    forms = "how two labels are said: {0}, {1}, {0g}, {1g} (gerunds); the paper's test and its Table A.3 try several"
+    table.add_argument("--form", default=WHILE, help=f"{forms} (default: %(default)s)")
     table.add_argument("--longest", type=int, default=LONGEST, help="frames of a pair at most (default: %(default)s)")
     judge = _command(commands, "prompts", prompted, corpus=True)
     judge.add_argument("--prompts", type=Path, default=prompts.PROMPTS, help="lines of 'seconds | prompt'")
@@ -130,6 +138,8 @@ def parser() -> argparse.ArgumentParser:
     judge.add_argument("--sampler", nargs="+", default=["diffusion", "vae"], help="samplers of generate")
     label = _command(commands, "parts", parts, corpus=False)
     label.add_argument("--phrases", type=Path, help="phrases with answers by hand (.tsv)")
+    label.add_argument("--endpoint", help="OpenAI-compatible server whose model answers the prompts of SINC's Table 1")
+    label.add_argument("--llm", default="default", help="its model (default: %(default)s)")
     return result
 
 

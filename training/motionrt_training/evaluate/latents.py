@@ -19,6 +19,7 @@ from motionrt.motion.skeleton import FloatArray
 from motionrt_training.backbones import Backbone
 from motionrt_training.checkpoint import load_any
 from motionrt_training.networks.temos import Temos
+from motionrt_training.temos_data import separated
 
 
 class Latents(Protocol):
@@ -44,7 +45,9 @@ class TorchLatents:
     @torch.inference_mode()
     def text(self, *texts: str) -> tuple[FloatArray, FloatArray]:
         """Mean and log variance of what texts mean, in one sentence where they are several."""
-        tokens = torch.cat([self._tokens(text) for text in texts], dim=1)  # (1, T, 384)
+        parts = [self._tokens(text)[0].numpy() for text in texts]
+        rows = separated(parts) if "separation" in self._model.config else np.concatenate(parts)
+        tokens = torch.from_numpy(rows)[None]  # (1, T, 384)
         found = self._model.encode_text(tokens, torch.ones(tokens.shape[:2], dtype=torch.bool))
         return found.mu[0].numpy(), (0.5 * found.logvar[0]).exp().numpy()
 

@@ -16,8 +16,10 @@ from motionrt.synthesis.composing import compatible
 from motionrt_training.corpora.actions import Action, ActionClip, read_actions
 from motionrt_training.corpora.recordings import load_recordings
 from motionrt_training.networks.egocentric import from_egocentric
+from motionrt_training.simultaneous import joined
 
 LONGEST = 300  # frames
+AND, WHILE = "{0} and {1}", "{0} while {1g}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,17 +30,19 @@ class ActionPair:
         id: of the clip.
         first, second: the actions.
         truth: the recording.
+        form: how both are said in one text, as in `motionrt_training.simultaneous.CONJUNCTIONS`.
     """
 
     id: str
     first: Action
     second: Action
     truth: Motion
+    form: str = AND
 
     @property
     def sentence(self) -> str:
         """Both actions in one text."""
-        return f"{self.first.text} and {self.second.text}"
+        return joined(self.first.text, self.second.text, self.form)
 
     @property
     def fits(self) -> bool:
@@ -53,15 +57,15 @@ def chosen(actions: Sequence[Action]) -> tuple[Action, Action]:
 
 
 def read_action_pairs(
-    recordings: str | Path, captions: str | Path, split: str = "test", longest: int = LONGEST
+    recordings: str | Path, captions: str | Path, split: str = "test", longest: int = LONGEST, form: str = AND
 ) -> list[ActionPair]:
-    """The clips of a split that have two labels or more, their first ``longest`` frames.
+    """The clips of a split that have two labels or more, their first ``longest`` frames; ``form`` joins the labels.
 
     Raises:
         InvalidInputError: there are none.
     """
     clips = read_actions(load_recordings(recordings), captions)
-    pairs = [_pair(clip, longest) for clip in clips if clip.split == split and len(clip.actions) > 1]
+    pairs = [_pair(clip, longest, form) for clip in clips if clip.split == split and len(clip.actions) > 1]
     if not pairs:
         raise InvalidInputError(f"{captions} has no clip of split '{split}' with two labels")
     return pairs
@@ -74,6 +78,6 @@ def clip_motion(clip: ActionClip, longest: int = LONGEST) -> Motion:
     return sinc135.decode(raw.numpy()).canonical()
 
 
-def _pair(clip: ActionClip, longest: int) -> ActionPair:
+def _pair(clip: ActionClip, longest: int, form: str) -> ActionPair:
     first, second = chosen(clip.actions)
-    return ActionPair(clip.id, first, second, clip_motion(clip, longest))
+    return ActionPair(clip.id, first, second, clip_motion(clip, longest), form)

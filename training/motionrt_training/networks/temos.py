@@ -88,6 +88,7 @@ class Temos(nn.Module):
         ff: int = 1024,
         dropout: float = 0.1,
         patch: int = 8,
+        separation: bool = False,
     ) -> None:
         super().__init__()
         if motion_dim != MOTION_DIM:
@@ -102,6 +103,9 @@ class Temos(nn.Module):
             "dropout": dropout,
             "patch": patch,
         }
+        if separation:  # only then, so that networks without it keep their form
+            self.config["separation"] = True
+            self.separator = nn.Parameter(0.02 * torch.randn(text_dim))
         self.text_encoder = ActorEncoder(text_dim, d, layers, heads, ff, dropout)
         self.text_mu = nn.Linear(d, d)  # the latent has a scale of its own
         self.motion_encoder = TemosEncoder(d, layers, heads, ff, dropout, patch)
@@ -124,7 +128,12 @@ class Temos(nn.Module):
         return frames * self.frame_std + self.frame_mean
 
     def encode_text(self, tokens: Tensor, mask: Tensor) -> Distribution:
-        """Token features (B, T, 384), mask (B, T) -> Distribution of latents (B, d)."""
+        """Token features (B, T, 384), mask (B, T) -> Distribution of latents (B, d).
+
+        With a separation token, rows of zeros within the mask are where it stands: between separately encoded texts.
+        """
+        if "separation" in self.config:
+            tokens = torch.where((tokens == 0).all(-1, keepdim=True), self.separator.to(tokens.dtype), tokens)
         mu, logvar = self.text_encoder(tokens, mask.to(torch.bool))
         return Distribution(self.text_mu(mu).float(), logvar)
 

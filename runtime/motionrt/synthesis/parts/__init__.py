@@ -7,7 +7,7 @@ from motionrt.synthesis.parts.endpoint import Complete, Endpoint
 from motionrt.synthesis.parts.labelling import Labeller, body_parts
 from motionrt.synthesis.parts.prompting import PromptLabeller, parts_in_answer, prompt_for
 from motionrt.synthesis.parts.rules import Reason, RulesLabeller
-from motionrt.synthesis.parts.speeds import part_speeds, velocity_parts
+from motionrt.synthesis.parts.speeds import part_speeds, relative_velocity_parts, velocity_parts
 
 __all__ = [
     "Complete",
@@ -21,5 +21,6 @@ __all__ = [
     "part_speeds",
     "parts_in_answer",
     "prompt_for",
+    "relative_velocity_parts",
     "velocity_parts",
 ]

@@ -28,8 +28,21 @@ _NOTHING = re.compile(r"\b(?:none|nothing|no (?:body )?parts?)\b")
 _DENIED = re.compile(r"\b(?:no|not|nor|without|except|excluding)\b(?:(?! but )[^.;\n])*")
 
 
-def prompt_for(text: str) -> str:
-    """Instruction, list of parts, examples, and the action: the prompt that did best in SINC's table of prompts."""
+STYLES = ("free", "list", "examples")
+"""The three prompts of SINC's Table 1: (a) an open question, (b) a list to choose from, (c) the list and examples."""
+
+
+def prompt_for(text: str, style: str = "examples") -> str:
+    """The prompt about an action, of one of the :data:`STYLES`; the default did best in SINC's Table 1.
+
+    Raises:
+        InvalidInputError: an unknown style.
+    """
+    if style not in STYLES:
+        raise InvalidInputError(f"there is no style of prompt {style!r}; there are {', '.join(STYLES)}")
+    action = " ".join(text.split())
+    if style == "free":
+        return f"Which parts of the body does a person need for the action '{action}'? Name them."
     lines = [
         "Which parts of the body does a person need for the action? Choose only from this list:",
         *(f"- {part}" for part in ASKED),
@@ -37,8 +50,9 @@ def prompt_for(text: str) -> str:
         " moves to another place or turns, and 'neck' when the head moves.",
         "",
     ]
-    lines += [f"Action: {action}\nParts: {parts}" for action, parts in EXAMPLES]
-    return "\n".join([*lines, f"Action: {' '.join(text.split())}\nParts:"])
+    if style == "examples":
+        lines += [f"Action: {example}\nParts: {parts}" for example, parts in EXAMPLES]
+    return "\n".join([*lines, f"Action: {action}\nParts:"])
 
 
 def parts_in_answer(answer: str) -> frozenset[str]:
@@ -83,12 +97,15 @@ class PromptLabeller:
     Args:
         complete: any ``prompt -> answer``.
         endpoint: an OpenAI-compatible endpoint, instead of ``complete``.
+        style: which of the :data:`STYLES` of prompt.
 
     Raises:
-        InvalidInputError: neither or both are given, or ``complete`` cannot be called.
+        InvalidInputError: neither or both are given, or ``complete`` cannot be called; an unknown style.
     """
 
-    def __init__(self, complete: Complete | None = None, *, endpoint: Endpoint | None = None) -> None:
+    def __init__(
+        self, complete: Complete | None = None, *, endpoint: Endpoint | None = None, style: str = "examples"
+    ) -> None:
         if (complete is None) == (endpoint is None):
             raise InvalidInputError(
                 "labeller 'llm' needs a language model: complete=(any prompt -> answer) or endpoint=Endpoint(...)"
@@ -96,7 +113,8 @@ class PromptLabeller:
         model = complete if complete is not None else endpoint
         if not callable(model):
             raise InvalidInputError(f"complete must be callable, prompt -> answer, not {type(model).__name__}")
-        self._complete = model
+        self._complete, self._style = model, style
+        prompt_for("stand", style)  # an unknown style is refused at once
 
     def __call__(self, text: str) -> frozenset[str]:
         """The parts of one action.
@@ -109,4 +127,4 @@ class PromptLabeller:
         """
         if not isinstance(text, str) or not text.strip():
             raise InvalidInputError("the action text is empty; say what somebody does, as in 'wave the right hand'")
-        return parts_in_answer(self._complete(prompt_for(text)))
+        return parts_in_answer(self._complete(prompt_for(text, self._style)))

@@ -44,8 +44,9 @@ class RulesLabeller:
     the right leg, and one hand that is named is the right ("raise a hand"); arms that are not mentioned swing when
     somebody runs or marches, and stay out of walking and jumping; turns move the torso; standing counts only where
     nothing else is said, and then as the legs; on the spot, walking loses the global part; a limb that is held in a
-    posture ("hands in the pockets", "arms attached to the waist") belongs to the action, one that is kept still or denied
-    does not. Text without any known word: both arms where it names an object ("whittle a stick"), else the whole body.
+    posture ("hands in the pockets", "arms attached to the waist") belongs to the action, one that is kept still or
+    denied does not. Text without any known word: both arms where it names an object ("whittle a stick"), else the whole
+    body.
 
     Args:
         encoder: optional ``text -> (D,)`` unit embedding, such as that of the sentence encoder: text without any known

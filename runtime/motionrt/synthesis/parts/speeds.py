@@ -19,6 +19,7 @@ LIMB_SPEED = 0.5  # m/s, joints of arms and legs as seen from where the limb is 
 TORSO_SPEED = 0.5  # m/s, joints of the trunk as seen from the pelvis
 ROOT_SPEED = 0.20  # m/s
 TURN_RATE = 1.0  # rad/s
+PUBLISHED_SHARE = 0.65  # of the way from the slowest to the fastest part, as SINC has it
 _FRAME = {**dict.fromkeys(ARMS, "spine3"), **dict.fromkeys(LEGS, "pelvis"), "torso": "pelvis"}
 
 
@@ -52,14 +53,38 @@ def velocity_parts(
     return frozenset({"global" if name == "turning" else name for name in moving})
 
 
+def relative_velocity_parts(motion: Motion, threshold: float = PUBLISHED_SHARE) -> frozenset[str]:
+    """The baseline as SINC published it: the parts that are fast beside the others, whatever their speed.
+
+    The speed of a part is that of the mean of its joints in the world, averaged over the frames; the slowest of the six
+    parts counts 0, the fastest 1, and a part moves above ``threshold``. Nothing moves where all are alike.
+
+    Raises:
+        InvalidInputError: another skeleton, or a threshold that is not from 0 to 1.
+    """
+    if not 0 <= threshold <= 1:
+        raise InvalidInputError(f"the threshold of relative_velocity_parts is a share from 0 to 1, not {threshold}")
+    _check_joints(motion)
+    steps = np.diff(motion.positions(), axis=0)
+    speeds = {part: float(np.linalg.norm(steps[:, list(PART_JOINTS[part])].mean(1), axis=-1).mean()) for part in PARTS}
+    slowest, fastest = min(speeds.values()), max(speeds.values())
+    if len(steps) == 0 or fastest <= slowest:
+        return frozenset()
+    return frozenset(part for part, speed in speeds.items() if (speed - slowest) / (fastest - slowest) > threshold)
+
+
+def _check_joints(motion: Motion) -> None:
+    if any(max(joints) >= len(motion.skeleton) for joints in PART_JOINTS.values()):
+        raise InvalidInputError("velocity_parts needs a motion of smpl24; see motionrt.rigs.retarget_in")
+
+
 def part_speeds(motion: Motion) -> Mapping[str, float]:
     """How fast each part moves: of the joint that moves most, the root mean square speed over the motion.
 
     Returns:
         m/s for each of :data:`motionrt.motion.body_parts.PARTS`, and ``turning`` in rad/s. All zero for one frame.
     """
-    if any(max(joints) >= len(motion.skeleton) for joints in PART_JOINTS.values()):
-        raise InvalidInputError("velocity_parts needs a motion of smpl24; see motionrt.rigs.retarget_in")
+    _check_joints(motion)
     speeds = {part: _fastest(_seen_from(motion, part, _FRAME[part]), motion.fps) for part in PARTS if part in _FRAME}
     speeds["global"] = _fastest(motion.root[:, None], motion.fps)
     turns = wrapped(np.diff(heading(motion))) * motion.fps

@@ -216,3 +216,19 @@ def test_an_answer_that_never_ends_is_given_up() -> None:
             Endpoint(f"http://127.0.0.1:{server.server_address[1]}/v1", "m", timeout_s=0.3)("march")
         server.done.set()  # type: ignore[attr-defined]
         server.shutdown()
+
+
+def test_the_three_prompts_of_the_paper_are_open_a_list_and_a_list_with_examples() -> None:
+    free, listed, examples = (prompt_for("nod  twice", style) for style in ("free", "list", "examples"))
+    assert all("nod twice" in prompt for prompt in (free, listed, examples))
+    assert "- torso" not in free
+    assert "- torso" in listed
+    assert "wave with the right hand" not in listed
+    assert "wave with the right hand" in examples
+    assert prompt_for("nod  twice") == examples
+    asked = []
+    labeller = PromptLabeller(lambda prompt: asked.append(prompt) or "The torso, and the neck.", style="free")
+    assert labeller("nod  twice") == {"torso"}
+    assert asked == [free]
+    with pytest.raises(InvalidInputError, match="no style of prompt 'essay'"):
+        PromptLabeller(lambda _: "", style="essay")

@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 from motionrt.errors import InvalidInputError
 from motionrt.motion import SMPL24, Motion
 from motionrt.motion.body_parts import PARTS
-from motionrt.synthesis.parts import part_speeds, velocity_parts
+from motionrt.synthesis.parts import part_speeds, relative_velocity_parts, velocity_parts
 
 FPS = 30.0
 
@@ -107,3 +107,17 @@ def test_speeds_do_not_depend_on_the_frame_rate_nor_on_where_it_happens() -> Non
 def test_a_threshold_below_zero_is_an_error(threshold: float) -> None:
     with pytest.raises(InvalidInputError, match="thresholds"):
         velocity_parts(standing(5), threshold=threshold)
+
+
+def test_as_published_the_parts_that_are_fast_beside_the_others_move() -> None:
+    rotations = np.tile(np.eye(3, dtype=np.float32), (30, 24, 1, 1))
+    angle = np.sin(np.arange(30) / 3.0)
+    elbow = SMPL24.index("right_shoulder")
+    rotations[:, elbow, 0, 0] = rotations[:, elbow, 1, 1] = np.cos(angle)
+    rotations[:, elbow, 1, 0], rotations[:, elbow, 0, 1] = np.sin(angle), -np.sin(angle)
+    waving = Motion(rotations, np.zeros((30, 3), np.float32), 30)
+    assert relative_velocity_parts(waving) == {"right arm"}
+    gliding = Motion(np.tile(np.eye(3, dtype=np.float32), (30, 24, 1, 1)), np.zeros((30, 3), np.float32), 30)
+    assert relative_velocity_parts(gliding) == frozenset()
+    with pytest.raises(InvalidInputError, match="share from 0 to 1"):
+        relative_velocity_parts(waving, 2.0)
