@@ -1,4 +1,4 @@
-"""Compositions of two recordings for the generator: the arms of one on the body of another (SINC 3.2)."""
+"""Compositions of two recordings for the generator: the arms of one on the body of another (SINC 3.1)."""
 
 from __future__ import annotations
 
