@@ -38,7 +38,8 @@ PAGES: dict[str, Page] = {
         "PostgreSQL (extra `postgres`), Milvus (extra `milvus`), or a store of your own.",
         (
             "motionrt.engines:GalleryStore", "motionrt.engines:Nearest", "motionrt.engines:open_store",
-            "motionrt.engines:copy_gallery", "motionrt.engines:find_in", "motionrt.engines:PostgresStore",
+            "motionrt.engines:copy_gallery", "motionrt.engines:index_into", "motionrt.engines:IndexReport",
+            "motionrt.engines:KnownFile", "motionrt.engines:find_in", "motionrt.engines:PostgresStore",
             "motionrt.engines:MilvusStore",
         ),
     ),

@@ -89,6 +89,7 @@ def _of_runtime(folder: FilePath) -> dict[str, Call]:
         "embed_motion": {"motion": LONG},
         "build_gallery": {"folder": folder / "library", "out": folder / "again"},
         "update_gallery": {"gallery": folder / "built"},
+        "index_into": {"folder": folder / "library", "address": "none"},
         "plan": {"scene": Scene.from_polygons(GROUND, cell=0.2), "start": (0, 0), "goal": (1, 1)},
         "walk": {"to": (0, 0.5)},
         "walk_together": {"paths": [[(0, 0), (0, 0.4)]]},

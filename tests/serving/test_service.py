@@ -50,6 +50,8 @@ def test_hits_are_those_of_the_runtime(served: Served, runtime: Runtime, library
 def test_filters_and_notices_come_through(served: Served) -> None:
     tagged = told(ask(served, "POST", "/v1/retrieve", {"text": "walks", "tags": ["sci-fi"], "anyway": True}))
     assert [hit["clip"] for hit in tagged["hits"]] == ["long.npz"]
+    words = told(ask(served, "POST", "/v1/retrieve", {"text": "walks", "words": "dancing robots", "anyway": True}))
+    assert [hit["clip"] for hit in words["hits"]] == ["long.npz"]
     short = told(ask(served, "POST", "/v1/retrieve", {"text": "walks", "max_s": 5, "where": "abs(turn) > 1"}))
     assert {hit["clip"] for hit in short["hits"]} <= {"walk.bvh", "ä/kreis.bvh"}
     assert told(ask(served, "POST", "/v1/retrieve", {"text": "walks", "folder": "no"}))["notice"]

@@ -11,6 +11,7 @@ from motionrt.cli.console import Progress, print_json, working
 from motionrt.cli.options import add_json, add_models, command, runtime
 from motionrt.cli.reading import INPUTS, add_reading, in_options, reading
 from motionrt.cli.skipped import SOME_SKIPPED, by_reason, say_skipped
+from motionrt.errors import InvalidInputError
 
 if TYPE_CHECKING:
     from motionrt.retrieval import BuildReport, Gallery
@@ -19,7 +20,9 @@ PRECISIONS = ("float32", "float16", "int8")
 BUILD = f"""index a folder of motion files, with all folders below it
 Reads {INPUTS}; each animation of a file that
 holds several is a clip of its own. How the files are read (--source-fps, --up, ...) is kept for updates.
-Files that cannot be read are listed with the reason, and the exit code is then 3."""
+Files that cannot be read are listed with the reason, and the exit code is then 3.
+With -o DATABASE (as in gallery copy) the clips go there; FOLDER may be an object store then (s3://bucket/library), and
+--on has the machines of a Dask cluster do the work. Broken off or given again, the command does what is left to do."""
 UPDATE = """bring a gallery up to date with its folder
 Only new and changed files are read, and files that are gone are dropped."""
 VERIFY = """read a gallery in full and check every file of it against its checksum
@@ -42,14 +45,15 @@ def add(commands: Any) -> None:
     group = commands.add_parser("gallery", help="build, update and look at galleries")
     parts = group.add_subparsers(title="commands", metavar="COMMAND", required=True)
     build = command(parts, "build", run_build, BUILD)
-    build.add_argument("folder", type=Path, help="where the motion files are")
+    build.add_argument("folder", type=_place, help="where the motion files are")
     build.add_argument(
         *("-o", "--output", "--out"),
         dest="out",
-        type=Path,
+        type=_place,
         metavar="DIR",
-        help="gallery (default: FOLDER/.motionrt-gallery)",
+        help="gallery (default: FOLDER/.motionrt-gallery), or the address of a database",
     )
+    build.add_argument("--on", metavar="ADDRESS", help="a Dask scheduler, dask://host:8786 (extra cluster)")
     add_reading(build)
     update = command(parts, "update", run_update, UPDATE)
     update.add_argument("gallery", type=Path, help="a gallery, or the folder that was indexed")
@@ -77,6 +81,12 @@ def add(commands: Any) -> None:
 
 def run_build(arguments: argparse.Namespace) -> int:
     """``gallery build``."""
+    if isinstance(arguments.out, str):
+        return _index(arguments)
+    if isinstance(arguments.folder, str) or arguments.on is not None:
+        raise InvalidInputError(
+            "--on and object stores need a database for the clips: -o postgresql://... or milvus://..."
+        )
     started = time.perf_counter()
     report = runtime(arguments).build_gallery(
         arguments.folder,
@@ -207,6 +217,28 @@ def _finish(report: BuildReport, arguments: argparse.Namespace, seconds: float) 
         print(", ".join(f"{count} {name}" for name, count in counts.items()) + rate)
     say_skipped([(skipped.path, in_options(skipped.reason)) for skipped in gallery.skipped])
     return SOME_SKIPPED if gallery.skipped else 0
+
+
+def _index(arguments: argparse.Namespace) -> int:
+    """Files into a database."""
+    report = runtime(arguments).index_into(
+        str(arguments.folder), arguments.out, on=arguments.on, progress=Progress(), **reading(arguments)
+    )
+    counts = {name: getattr(report, name) for name in ("files", "unchanged", "clips", "windows")}
+    if arguments.json:
+        skipped = [{"path": failure.path, "reason": failure.reason} for failure in report.failures]
+        rates = {"seconds": round(report.seconds, 3), "clips_per_s": round(report.clips_per_s, 2)}
+        print_json({"library": arguments.out, **counts, **rates, "skipped": skipped})
+    else:
+        print(f"{report.clips} clips, {report.windows} windows indexed, in {report.seconds:.1f} s")
+        print(f"{report.files} files, {report.unchanged} of them unchanged ({report.clips_per_s:.1f} clips/s)")
+    say_skipped([(failure.path, in_options(failure.reason)) for failure in report.failures])
+    return SOME_SKIPPED if report.failures else 0
+
+
+def _place(text: str) -> Path | str:
+    """A path of this machine, or an address as it is."""
+    return text if "://" in text else Path(text)
 
 
 def _jobs(arguments: argparse.Namespace) -> int:

@@ -7,7 +7,7 @@ import json
 import re
 import threading
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any, TypeVar
 from urllib.parse import urlsplit
 
@@ -15,7 +15,7 @@ import numpy as np
 
 from motionrt.engines.conditions import Conditions
 from motionrt.engines.rows import Row, rows_of
-from motionrt.engines.store import Nearest
+from motionrt.engines.store import KnownFile, Nearest
 from motionrt.errors import EngineError, GalleryNotFoundError, InvalidInputError, MissingDependencyError
 from motionrt.motion.attributes import ATTRIBUTES
 from motionrt.motion.skeleton import FloatArray
@@ -67,6 +67,19 @@ class MilvusStore:
             return int(client.query(self._library, filter="", output_fields=["count(*)"])[0]["count(*)"])
 
         return self._run(count)
+
+    def known(self, files: Sequence[str]) -> dict[str, KnownFile]:
+        """The files of which there are clips."""
+        fields = ["file", "clip", "size", "mtime_ns"]
+
+        def ask(client: Any) -> list[tuple[str, str, int, int]]:
+            rows: list[dict[str, Any]] = []
+            for first in range(0, len(files), AT_ONCE):
+                told = f"part == 0 and file in {_quoted(list(files[first : first + AT_ONCE]))}"
+                rows += client.query(self._library, told, output_fields=fields, consistency_level="Strong")
+            return sorted((row["file"], row["clip"], row["size"], row["mtime_ns"]) for row in rows)
+
+        return KnownFile.grouped(self._run(ask))
 
     def upsert(self, clips: Gallery) -> None:
         """Add or replace clips."""
@@ -145,7 +158,9 @@ class MilvusStore:
         schema.add_field("key", kinds.VARCHAR, is_primary=True, max_length=65535)
         schema.add_field("clip", kinds.VARCHAR, max_length=65535)
         schema.add_field("text", kinds.VARCHAR, max_length=65535)
-        schema.add_field("part", kinds.INT64)
+        schema.add_field("file", kinds.VARCHAR, max_length=65535)
+        for name in ("part", "size", "mtime_ns"):
+            schema.add_field(name, kinds.INT64)
         for name in ("start_s", "end_s", "duration_s"):
             schema.add_field(name, kinds.DOUBLE)
         for name in ATTRIBUTES:
@@ -232,6 +247,7 @@ def _values(row: Row) -> dict[str, Any]:
         raise InvalidInputError(f"the clip {shown(clip.id)} has too long a name, or no attributes: update the gallery")
     return {
         "key": f"{row.part}:{clip.id}", "clip": clip.id, "text": clip.text or "", "part": row.part,
+        "file": clip.file, "size": clip.size, "mtime_ns": clip.mtime_ns,
         "start_s": row.start_s, "end_s": row.end_s, "duration_s": clip.duration_s, "tags": list(row.tags[:100]),
         "embedding": row.embedding.tolist(),
         **{f"a_{name}": float(value) for name, value in zip(ATTRIBUTES, row.attributes, strict=True)},

@@ -6,14 +6,14 @@ import importlib
 import re
 import threading
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any, TypeVar
 
 import numpy as np
 
 from motionrt.engines.conditions import Conditions
 from motionrt.engines.rows import Row, rows_of
-from motionrt.engines.store import Nearest
+from motionrt.engines.store import KnownFile, Nearest
 from motionrt.errors import EngineError, GalleryNotFoundError, InvalidInputError, MissingDependencyError
 from motionrt.motion.attributes import ATTRIBUTES
 from motionrt.motion.skeleton import FloatArray
@@ -25,11 +25,12 @@ T = TypeVar("T")
 WIDTH = 256
 _PLACE = {name: number for number, name in enumerate(ATTRIBUTES, 1)}
 _CONDITIONS = Conditions(lambda name: f"attributes[{_PLACE[name]}]")
-_COLUMNS = "clip, part, start_s, end_s, duration_s, text, tags, embedding, attributes"
+_COLUMNS = "clip, part, start_s, end_s, duration_s, text, tags, embedding, attributes, file, size, mtime_ns"
 _MODELS = "create table if not exists motionrt_models (library text primary key, name text, fingerprint text)"
 _TABLE = (
     'clip text collate "C", part int, start_s double precision, end_s double precision, duration_s double precision, '
-    f"text text, tags text[], embedding vector({WIDTH}), attributes real[], primary key (clip, part)"
+    f"text text, tags text[], embedding vector({WIDTH}), attributes real[], file text, size bigint, mtime_ns bigint, "
+    "primary key (clip, part)"
 )
 _MOST_EF = 1000  # windows that pgvector's graph looks at, at most
 
@@ -70,6 +71,11 @@ class PostgresStore:
 
     def __len__(self) -> int:
         return int(self._run(lambda cursor: cursor.execute(f"select count(*) from {self._table}").fetchone()[0]))
+
+    def known(self, files: Sequence[str]) -> dict[str, KnownFile]:
+        """The files of which there are clips."""
+        asked = f"select file, clip, size, mtime_ns from {self._table} where part = 0 and file = any(%s) order by clip"
+        return KnownFile.grouped(self._run(lambda cursor: cursor.execute(asked, (list(files),)).fetchall()))
 
     def upsert(self, clips: Gallery) -> None:
         """Add or replace clips, all of them or none."""
@@ -143,6 +149,7 @@ class PostgresStore:
             cursor.execute("create extension if not exists vector")
             cursor.execute(_MODELS)
             cursor.execute(f"create table if not exists {self._table} ({_TABLE})")
+            cursor.execute(f"create index if not exists {self._table}_files on {self._table} (file)")
             cursor.execute(
                 "insert into motionrt_models values (%s, %s, %s) on conflict (library) do nothing",
                 (self._table, model.name, model.fingerprint),
@@ -209,7 +216,7 @@ def _values(row: Row) -> tuple[Any, ...]:
     clip, attributes = row.clip, None if row.attributes is None else row.attributes.tolist()
     return (
         clip.id, row.part, row.start_s, row.end_s, clip.duration_s, clip.text, list(row.tags), _text(row.embedding),
-        attributes,
+        attributes, clip.file, clip.size, clip.mtime_ns,
     )  # fmt: skip
 
 

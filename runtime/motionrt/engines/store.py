@@ -33,6 +33,30 @@ class Nearest:
     texts: Sequence[str | None]
 
 
+@dataclass(frozen=True)
+class KnownFile:
+    """A file whose clips a store holds.
+
+    Attributes:
+        size: its bytes when it was indexed.
+        mtime_ns: its modification time then, nanoseconds.
+        clips: ids of its clips.
+    """
+
+    size: int
+    mtime_ns: int
+    clips: tuple[str, ...]
+
+    @classmethod
+    def grouped(cls, rows: Iterable[tuple[str, str, int, int]]) -> dict[str, KnownFile]:
+        """By file, out of file, clip, size and time of every clip."""
+        found: dict[str, KnownFile] = {}
+        for file, clip, size, mtime_ns in rows:
+            before = found[file].clips if file in found else ()
+            found[file] = cls(int(size), int(mtime_ns), (*before, clip))
+        return found
+
+
 @runtime_checkable
 class GalleryStore(Protocol):
     """A library of motion in a database. All calls may be repeated: they change nothing the second time."""
@@ -43,6 +67,9 @@ class GalleryStore(Protocol):
 
     def __len__(self) -> int:
         """How many windows it holds."""
+
+    def known(self, files: Sequence[str]) -> dict[str, KnownFile]:
+        """Of those files the ones that it has clips of, by path below the indexed folder."""
 
     def upsert(self, clips: Gallery) -> None:
         """Add the clips of a gallery, or put them in the place of those with the same ids.

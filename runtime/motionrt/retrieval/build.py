@@ -11,6 +11,7 @@ from motionrt.formats.folder import FoundMotions
 from motionrt.motion.checks import checked_fps
 from motionrt.retrieval.assembly import BuildReport, Plan, Progress, Workers, run
 from motionrt.retrieval.gallery import Gallery
+from motionrt.retrieval.head import stays_below
 from motionrt.retrieval.indexing import OpenModel
 from motionrt.retrieval.locking import writing
 from motionrt.retrieval.records import Reading
@@ -62,7 +63,7 @@ def build_gallery(
         GalleryError: no file could be read, the place cannot be written, or another process writes there.
     """
     source = as_path(folder).resolve()
-    reading = _reading(source, mapping, fps, up, asf, animation)
+    reading = checked_reading(source, mapping, fps, up, asf, animation)
     stored = checked_precision(precision)
     found = _found(source)
     target = as_path(out) if out is not None else source / DEFAULT_FOLDER
@@ -100,20 +101,26 @@ def _found(source: Path) -> FoundMotions:
     return find_motions(source, without=GALLERY_FILE, beside=SIDECARS)
 
 
-def _reading(
-    source: Path,
+def checked_reading(
+    source: Path | None,
     mapping: Mapping[str, str] | None,
     fps: float | None,
     up: str | None,
     asf: str | Path | None,
     animation: int | str | None,
 ) -> Reading:
+    """How files are read, of the arguments of :func:`build_gallery`; without ``source`` ``asf`` is a path below it."""
     if not (up is None or (isinstance(up, str) and up in ("y", "z"))):
         raise InvalidInputError(f"up must be 'y' or 'z', not {shown(up)}")
     rate = None if fps is None else checked_fps(fps)
     chosen = None if animation is None else str(animation)
     if asf is None:
         return Reading(mapping, rate, up, None, chosen)
+    if source is None:
+        below = as_path(asf).as_posix()
+        if not stays_below(below):
+            raise InvalidInputError(f"asf= must name a file by its path below the indexed folder, not {asf}")
+        return Reading(mapping, rate, up, below, chosen)
     skeleton = as_path(asf).resolve()
     if not skeleton.is_file() or not skeleton.is_relative_to(source):
         raise InvalidInputError(f"asf= must name a file in {source}, where the gallery finds it again, not {asf}")

@@ -21,7 +21,7 @@ from motionrt.untrusted.files import as_path
 from motionrt.untrusted.words import shown
 
 if TYPE_CHECKING:  # embedding a text, the shortest way to an answer, waits for none of these
-    from motionrt.engines import GalleryStore
+    from motionrt.engines import GalleryStore, IndexReport
     from motionrt.retrieval import BuildReport, Description, EmbeddedCaptions, Gallery, Moments, Progress
     from motionrt.retrieval.filters import Filter
     from motionrt.retrieval.finding import Hits
@@ -307,6 +307,37 @@ class Search(Service):
 
         check_functions(progress=progress)
         return update_gallery(gallery, self._opener(), jobs=jobs, progress=progress)
+
+    def index_into(
+        self,
+        folder: str | Path,
+        address: str,
+        *,
+        on: str | None = None,
+        mapping: Mapping[str, str] | None = None,
+        fps: float | None = None,
+        up: str | None = None,
+        asf: str | Path | None = None,
+        animation: int | str | None = None,
+        progress: Progress | None = None,
+    ) -> IndexReport:
+        """Index a folder or object store into a database, on this machine or on a cluster.
+
+        See :func:`motionrt.engines.index_into`; in an object store ``asf`` is a path below the folder.
+
+        Raises:
+            InvalidInputError, GalleryError, EngineError, MissingDependencyError: see there.
+        """
+        from motionrt.engines import index_into
+        from motionrt.retrieval.build import checked_reading
+
+        check_functions(progress=progress)
+        check_kind(address, str, "address", "a str")
+        check_kind(on, str | None, "on", "a str or None")
+        source = None if isinstance(folder, str) and "://" in folder else as_path(folder).resolve()
+        reading = checked_reading(source, mapping, fps, up, asf, animation)
+        url = str(source or folder)
+        return index_into(url, address, self._opener(), on=on, reading=reading, progress=progress)
 
     def _opener(self) -> partial[TextMotionModel]:
         """Opens the model with one thread: the same gallery, byte for byte, whatever builds it."""

@@ -71,7 +71,7 @@ def _add_searching(app: FastAPI, desk: Desk) -> None:
 
     @app.post("/v1/retrieve", response_model=Hits, summary="motions that fit a text")
     def retrieve(asked: Retrieve) -> dict[str, Any]:
-        filters = Filter(asked.where, asked.min_s, asked.max_s, asked.folder, tuple(asked.tags))
+        filters = Filter(asked.where, asked.min_s, asked.max_s, asked.folder, tuple(asked.tags), asked.words)
         return desk.retrieve(
             asked.text, asked.k, asked.gallery, per_clip=asked.per_clip, anyway=asked.anyway, filters=filters
         )

@@ -28,6 +28,7 @@ class Retrieve(Asked):
     max_s: float | None = Field(None, description="most duration of a clip, seconds")
     folder: str | None = Field(None, description="below this folder of the library")
     tags: list[str] = Field(default_factory=list, description="tags of the clip")
+    words: str | None = Field(None, description="words of captions, tags or file names, all of them")
 
 
 class Similar(Asked):

@@ -63,10 +63,14 @@ def _add_finding(server: MCPServer[Any], desk: Desk) -> None:
 
     @_tool(server)
     def retrieve(
-        text: str, k: int = 5, gallery: str | None = None, where: str | None = None, max_seconds: float | None = None
-    ) -> dict[str, Any]:
-        """Motions of a library that fit a text, best first; `where` is like "turn > 60 and speed < 1.5"."""
-        return desk.retrieve(text, k, gallery, filters=Filter(where=where, max_s=max_seconds))
+        text: str, k: int = 5, gallery: str | None = None, where: str | None = None, max_seconds: float | None = None,
+        words: str | None = None,
+    ) -> dict[str, Any]:  # fmt: skip
+        """Motions of a library that fit a text, best first; `where` is like "turn > 60 and speed < 1.5".
+
+        `words` are those that captions, tags or file names must have, all of them.
+        """
+        return desk.retrieve(text, k, gallery, filters=Filter(where=where, max_s=max_seconds, text=words))
 
     @_tool(server)
     def similar(clip: str, k: int = 5, gallery: str | None = None) -> dict[str, Any]:
