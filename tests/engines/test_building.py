@@ -11,10 +11,10 @@ from uuid import uuid4
 
 import numpy as np
 import pytest
+from engine_servers import STAMP, Server
 from fake_embedder import FakeEmbedder, open_fake
 from motions import walking
 
-from conftest import STAMP, Server
 from motionrt.cli import main
 from motionrt.engines import GalleryStore, dask, index_into, open_store
 from motionrt.engines.objects import fetched, find_objects
@@ -48,6 +48,11 @@ def bucket(library: Path) -> Iterator[str]:
     files.put(str(library), name, recursive=True)
     yield f"memory:/{name}"
     files.rm(name, recursive=True)
+
+
+def any_model(*_: object, **__: object) -> FakeEmbedder:
+    """In place of the runtime's model; unlike a lambda it can be pickled."""
+    return FakeEmbedder()
 
 
 def contents(store: GalleryStore) -> dict[tuple[str, float], np.ndarray]:
@@ -111,7 +116,7 @@ def test_another_models_library_is_refused(library: Path, address: str) -> None:
 def test_the_command_line_indexes_into_a_database(
     bucket: str, library: Path, address: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(search, "TextMotionModel", lambda *_, **__: FakeEmbedder())
+    monkeypatch.setattr(search, "TextMotionModel", any_model)
     (library / "broken.bvh").write_text("HIERARCHY no more")
     assert main(["gallery", "build", bucket, "-o", address]) == 0
     assert f"{COUNT} clips, {COUNT} windows indexed" in capsys.readouterr().out

@@ -8,9 +8,9 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
-from test_stores import library
+from engine_library import library
+from engine_servers import STAMP, Server
 
-from conftest import STAMP, Server
 from motionrt.engines import PostgresStore, open_store
 from motionrt.errors import EngineError
 from motionrt.retrieval import Filter, Gallery
