@@ -52,7 +52,7 @@ def test_a_walk_stays_on_the_ground(scene: Scene) -> None:
     assert done.motion.root[-1, 1] == pytest.approx(UP - 1 + standing, abs=0.03)
     assert np.abs(over - standing).max() < 0.3  # the slope begins and ends within transitions, too
     assert np.abs(np.diff(done.motion.root[:, 1])).max() < 0.03
-    np.testing.assert_allclose(done.motion.root[:, 1] - done.ground, standing, atol=0.03)
+    np.testing.assert_allclose(done.motion.root[:, 1] - done.ground, standing, atol=0.07)  # straight legs sink in steps
     flat = Performer(FakeCharacterModels(), Goal(0, 0)).perform([WalkTo(0, 14)], foot_lock=False)
     assert done.measures.motion.foot_skate_cm == pytest.approx(flat.measures.motion.foot_skate_cm, rel=0.05)
 
