@@ -12,8 +12,9 @@ from motionrt.synthesis.composing import combination
 from motionrt_training.corpora.actions import Action, ActionClip
 from motionrt_training.networks.egocentric import from_egocentric, mirrored, to_egocentric
 from motionrt_training.networks.temos import Temos
-from motionrt_training.simultaneous import combined, gerund, random_combination, sentence
+from motionrt_training.simultaneous import combined, random_combination
 from motionrt_training.temos_data import ActionData, Examples, crop, prolonged, separated
+from motionrt_training.wording.pairs import gerund, sentence
 
 PLAIN = ActionData(captions=0.0, synthetic=0.0, mirror=False, tempo=0.0)
 

@@ -18,7 +18,8 @@ from motionrt_training.corpora.actions import Action, ActionClip
 from motionrt_training.corpora.text_mirror import mirror_text
 from motionrt_training.networks.egocentric import HEIGHT, RATES, mirrored
 from motionrt_training.options import option
-from motionrt_training.simultaneous import combined, random_combination, sentence
+from motionrt_training.simultaneous import combined, random_combination
+from motionrt_training.wording.pairs import sentence
 
 Features = TypeVar("Features", NDArray[np.float16], NDArray[np.float32])
 TRIES = 30  # to find a partner that fits

@@ -29,8 +29,8 @@ from motionrt.text import attribute_targets, parse_query, slots_of_motion
 from motionrt_training.corpora.composed import acting_arms, with_arms
 from motionrt_training.corpora.positions import CaptionedSpan, PackedRecording, unpack_positions
 from motionrt_training.data_record import data_of
-from motionrt_training.simultaneous import sentence
 from motionrt_training.wording.measured import say_measured
+from motionrt_training.wording.pairs import sentence
 from motionrt_training.wording.saying import THEN
 
 LEAST, MOST = 10, 200  # frames of a view at 20 fps

@@ -1,6 +1,7 @@
 """How many negatives the filter drops: TMR's Table A.1 for any corpus, and the threshold that drops as many as there.
 
     python -m motionrt_training.evaluate.filtering --corpus runs/mocap.npz
+    python -m motionrt_training.evaluate.filtering --captions ../shared/data/mocap/cmu/captions.jsonl
 
 Batches are drawn from the training captions as training draws them, one caption a clip. Sentence encoders put similar
 sentences at different distances, so that 0.8 of one is not 0.8 of another; ``--like`` gives the share that is wanted.
@@ -11,6 +12,7 @@ from __future__ import annotations
 import argparse
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +21,7 @@ from motionrt.errors import InvalidInputError
 from motionrt.metrics import text_scores
 from motionrt.models import TextMotionModel
 from motionrt_training.command import reports_errors
+from motionrt_training.corpora.cmu import caption_rows
 from motionrt_training.evaluate.published import figures
 from motionrt_training.evaluate.tables import markdown
 from motionrt_training.packed import load_packed
@@ -78,8 +81,8 @@ def filtering_table(pairs: Pairs, share: float) -> str:
     for rule, name in zip(rules, ("directions respected", "similarity alone"), strict=True):
         try:
             threshold = f"{pairs.threshold_of(share, respect_directions=rule):.3f}"
-        except InvalidInputError as error:
-            threshold = str(error)
+        except InvalidInputError:
+            threshold = "none drops so many"
         body.append([f"{threshold} ({name})", *(f"{share:.2f}" if rule == other else "" for other in rules)])
     return markdown(["threshold", "dropped, directions respected (%)", "dropped, similarity alone (%)"], body)
 
@@ -89,17 +92,30 @@ def published_share() -> float:
     return next(figure.value for figure in figures() if figure.paper == "TMR" and figure.place == "A.1")
 
 
+def _of_rows(path: Path) -> list[tuple[str, ...]]:
+    """The captions of the training rows of a ``captions.jsonl``."""
+    return [tuple(row["captions"]) for _, row in caption_rows(path) if row["split"] == "train"]
+
+
+def _of_pack(path: str) -> list[tuple[str, ...]]:
+    return [clip.texts for clip in load_packed(path).split("train")]
+
+
 @reports_errors
 def main() -> None:
     """The command line."""
     parser = argparse.ArgumentParser(description="Share of negatives that the text filter drops.")
-    parser.add_argument("--corpus", required=True, help="packed corpus (.npz), of which the training split is read")
+    source = parser.add_mutually_exclusive_group(required=True)
+    source.add_argument("--corpus", help="packed corpus (.npz), of which the training split is read")
+    source.add_argument("--captions", type=Path, help="captions.jsonl, of which the training split is read")
     parser.add_argument("--batch", type=int, default=32, help="clips of a batch (default: %(default)s)")
     parser.add_argument("--batches", type=int, default=200, help="batches to draw (default: %(default)s)")
     parser.add_argument("--like", type=float, default=published_share(), help="percent to drop (default: %(default)s)")
     parser.add_argument("--models", help="manifest of the exported models (default: the shipped ones)")
     args = parser.parse_args()
-    captions = [clip.texts for clip in load_packed(args.corpus).split("train")]
+    captions = (
+        _of_rows(args.captions) if args.captions else [clip.texts for clip in load_packed(args.corpus).split("train")]
+    )
     pairs = drawn_pairs(captions, TextMotionModel(args.models).sentences.embed, args.batch, args.batches)
     print(filtering_table(pairs, args.like))
 

@@ -16,7 +16,7 @@ from motionrt.synthesis.composing import compatible
 from motionrt_training.corpora.actions import Action, ActionClip, read_actions
 from motionrt_training.corpora.recordings import load_recordings
 from motionrt_training.networks.egocentric import from_egocentric
-from motionrt_training.simultaneous import joined
+from motionrt_training.wording.pairs import joined
 
 LONGEST = 300  # frames
 AND, WHILE = "{0} and {1}", "{0} while {1g}"
@@ -30,7 +30,7 @@ class ActionPair:
         id: of the clip.
         first, second: the actions.
         truth: the recording.
-        form: how both are said in one text, as in `motionrt_training.simultaneous.CONJUNCTIONS`.
+        form: how both are said in one text, as in `motionrt_training.wording.pairs.CONJUNCTIONS`.
     """
 
     id: str
