@@ -16,7 +16,7 @@ from motionrt.locomotion import Act, Do, Follow, Goal, Scene, Script, Stand, Wai
 from motionrt.locomotion.performing import Performer
 from motionrt.locomotion.script_scene import SceneSpec
 from motionrt.studio import draft as drafts
-from motionrt.studio.draft import Draft, History, Options
+from motionrt.studio.draft import Draft, Options
 from motionrt.studio.postures import grab, sit
 from motionrt.studio.script_text import script_text
 
@@ -108,20 +108,6 @@ def test_a_keypoint_can_be_dragged() -> None:
     assert draft.steps[0].keypoints["pelvis"] == (0.1, 0.6, 3.0)
     with pytest.raises(InvalidInputError, match="step 1 has no keypoint 'head'"):
         draft.moved(0, "head", (0, 0, 0))
-
-
-def test_undo_goes_back_click_by_click() -> None:
-    history = History()
-    for x in (1.0, 2.0, 3.0):
-        history.push(history.now.clicked(drafts.WALK, (x, 0, 0), GROUND))
-    history.push(history.now)  # nothing changed
-    assert len(history.now.steps) == 3
-    assert history.undo()
-    assert len(history.now.steps) == 2
-    assert history.undo()
-    assert history.undo()
-    assert not history.undo()
-    assert history.now == Draft()
 
 
 def test_unknown_tools_and_joints_are_typed_errors() -> None:

@@ -35,8 +35,11 @@ class StudioRuntime(Runtime):
             raise InvalidInputError("no unicorns in this gallery")
         return [Hit(i + 1, 0.9 - i / 10, name, None, 0.0, 3.0, name) for i, name in enumerate(SmallGallery.clips)]
 
-    def generate(self, text: str, seconds: float = 4.0, *, n: int = 1, **_: object) -> Any:  # type: ignore[override]
-        return [walking(round(20 * seconds)) for _ in range(n)]
+    def generate(  # type: ignore[override]
+        self, text: str = "", seconds: float = 4.0, *, n: int | None = None, **_: object
+    ) -> Any:
+        made = walking(round(20 * seconds))
+        return made if n is None else [made] * n
 
     def describe(self, *_: object, **__: object) -> list[Description]:
         return [Description(1, 0.8, "somebody walks", 0.0, 3.0)]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import zipfile
 from collections.abc import Callable, Iterator
 from io import BytesIO
 from pathlib import Path
@@ -17,6 +18,7 @@ from motionrt.locomotion import Script
 from motionrt.studio import open_studio, open_viewer
 from motionrt.studio.showing import show_of
 from motionrt.studio.workshop import Workshop
+from motionrt.synthesis.plan import Plan
 
 WIDTH, HEIGHT, SCALE = 900, 560, 0.35
 FLOOR = 190, 470  # pixels where the ground is in sight, away from the panel
@@ -166,3 +168,80 @@ def test_two_windows_do_not_disturb_each_other(studio: Callable[[], Page]) -> No
     two.call("Page.bringToFront")
     moving = frame(two)
     wait_until(lambda: frame(two) != moving, 20, "the other window to play on")
+
+
+def upload(page: Page, number: int, *files: Path) -> None:
+    """Choose files for the ``number``-th upload button of the page, as a user does in the browser's dialogue."""
+    root = page.call("DOM.getDocument")["root"]["nodeId"]
+    inputs = page.call("DOM.querySelectorAll", nodeId=root, selector="input[type=file]")["nodeIds"]
+    page.call("DOM.setFileInputFiles", nodeId=inputs[number], files=[str(file) for file in files])
+
+
+def test_a_plan_is_drafted_generated_and_written(studio: Callable[[], Page], tmp_path: Path) -> None:
+    page = studio()
+    page.tab("Plan")
+    page.click("Generate the plan")
+    page.wait_text("the plan has no text yet")
+    page.click("Add text")
+    page.wait_text("1. walk forward")
+    page.fill("Text", "sit down")
+    page.wait_text("2. sit down")
+    page.click("Place")
+    page.click_at(*FLOOR)
+    page.wait_text("◆ place")
+    page.click("Generate the plan")
+    page.wait_text("generated in")
+    page.click("Download as plan")
+    file = wait_until(lambda: next(tmp_path.glob("*.yaml"), None), 20, "a plan")
+    found = wait_until(lambda: file.read_text().count("\n") > 3 and Plan.read(file), 10, "all of it")
+    assert [item["text"] for item in found.timeline] == ["walk forward", "sit down"]
+    assert [way.time for way in found.constraints.path] == [2.0]
+
+
+def test_a_reload_brings_the_work_back_and_undo_takes_it_back(studio: Callable[[], Page]) -> None:
+    page = studio()
+    page.tab("Make")
+    page.click("Generate")
+    page.wait_text("generated in")
+    page.tab("Plan")
+    page.click("Add text")
+    page.wait_text("1. walk forward")
+    page.call("Page.reload")
+    page.wait_text("wave the right hand")
+    page.tab("Plan")
+    page.wait_text("1. walk forward")
+    page.press("z")
+    page.wait_text("Nothing on the stage yet")
+
+
+def test_a_search_leaves_work_on_the_stage(studio: Callable[[], Page]) -> None:
+    page = studio()
+    page.tab("Make")
+    page.click("Generate")
+    page.wait_text("generated in")
+    page.tab("Search")
+    page.click("Find")
+    page.wait_text("4 hits in")
+    page.wait_text("rank 1")
+    assert "generated in" in page.text()
+    page.click("Find")
+    wait_until(lambda: page.text().count("rank 1 ·") == 1, 20, "hits that took the place of the last ones")
+
+
+def test_clips_and_projects_are_opened_and_saved(studio: Callable[[], Page], walk_file: Path, tmp_path: Path) -> None:
+    page = studio()
+    page.tab("Open")
+    page.wait_text("Begin with any of these")
+    upload(page, -1, walk_file)
+    page.wait_text("my walk")
+    page.click("Download as project")
+    file = wait_until(lambda: next(tmp_path.glob("*.zip"), None), 20, "a project")
+    wait_until(lambda: zipfile.is_zipfile(file), 10, "all of it")
+    other = studio()
+    other.tab("Open")
+    upload(other, -1, file)
+    other.wait_text("my walk")
+    bad = tmp_path / "bad.zip"
+    bad.write_bytes(b"PK nothing")
+    upload(other, -1, bad)
+    other.wait_text("no ZIP file that can be read")

@@ -12,7 +12,7 @@ from motionrt.cli.view import LOOPBACK, add_page, serve
 
 HELP = """search, make and direct motion in the browser
 Type a text and watch the best hits; generate; lay one motion over another; click a path and keypoints into a scene and
-let a character perform; export. Keys: P plays and pauses, J and K step, F frames everything, Z takes a click back.
+let a character perform; plan, open, export. Keys: space plays and pauses, arrows step, F frames everything, Z undoes.
 The page needs no network. Ctrl-C ends it."""
 
 

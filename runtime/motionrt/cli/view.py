@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from motionrt.studio.windows import Show
 
 HELP = """play motion files in the browser, one or several side by side
-Keys: P plays and pauses, J and K step, F frames everything. The page needs no network. Ctrl-C ends it."""
+Keys: space plays and pauses, arrows step, F frames everything. The page needs no network. Ctrl-C ends it."""
 
 
 def add(commands: Any) -> None:

@@ -21,15 +21,16 @@ from motionrt.motion.transforms import TOE_JOINTS
 Colour = tuple[int, int, int]
 
 PALETTE: tuple[Colour, ...] = (
-    (86, 132, 214),
-    (232, 131, 74),
-    (84, 164, 124),
-    (190, 104, 168),
-    (214, 172, 60),
-    (76, 168, 182),
-    (206, 92, 92),
-    (132, 116, 204),
+    (40, 114, 200),
+    (213, 94, 0),
+    (0, 158, 115),
+    (204, 121, 167),
+    (230, 159, 0),
+    (86, 180, 233),
+    (120, 84, 40),
+    (110, 110, 110),
 )
+"""Colours that people tell apart whatever they see of colours, after Okabe and Ito; on light ground."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,12 +42,14 @@ class Clip:
         motion: the motion.
         colour: red, green and blue, 0 to 255.
         note: one line about it, as in a score.
+        made: whether it is somebody's work, which a search leaves on the stage, and not a hit.
     """
 
     name: str
     motion: Motion
     colour: Colour
     note: str = ""
+    made: bool = False
 
     @cached_property
     def quaternions(self) -> FloatArray:

@@ -9,16 +9,17 @@ import numpy as np
 
 from motionrt.errors import InvalidInputError
 from motionrt.locomotion import Act, Do, Stand, Wait
-from motionrt.motion import SMPL24
+from motionrt.motion import SMPL24, Motion
 from motionrt.studio import draft as drafts
 from motionrt.studio import picking
-from motionrt.studio.draft import Draft, History, Options
+from motionrt.studio.clicks import Clicks
+from motionrt.studio.draft import Draft, Options
 from motionrt.studio.gizmos import Dragged, Gizmos
 from motionrt.studio.jobs import Told
 from motionrt.studio.postures import Place
 from motionrt.studio.scenery import open_scenery
 from motionrt.studio.script_text import script_text
-from motionrt.studio.uploads import SCENE_SUFFIXES, Uploads
+from motionrt.studio.uploads import SCENE_SUFFIXES
 
 if TYPE_CHECKING:
     from motionrt.locomotion import Performance, Script
@@ -40,10 +41,10 @@ class DirectPanel:
     """
 
     def __init__(self, session: StudioWindow) -> None:
-        self._session, self.history = session, History()
+        self._session = session
+        self.draft = Draft() if session.given.draft is None else session.given.draft
         self._tool: str | None = None
-        self.uploads = Uploads()
-        self._listening = False
+        self._clicks = Clicks(session.client, session.guarded(lambda e: self.click(e.ray_origin, e.ray_direction)))
         self._gizmos = Gizmos(session.client, session.guarded(self._dragged))
         gui = session.client.gui
         with gui.add_folder("Scene"):
@@ -52,8 +53,6 @@ class DirectPanel:
             self._add_tools(gui)
         with gui.add_folder("Steps"):
             self._add_steps(gui)
-        if session.given.draft is not None:
-            self.history.drafts[0] = session.given.draft
         self._tell()
 
     @property
@@ -88,16 +87,17 @@ class DirectPanel:
         undo: Any = gui.add_button("Undo", icon="arrow-back-up", hint="Key Z")
         clear: Any = gui.add_button("Clear", icon="trash", color="gray")
         self._speed: Any = gui.add_slider("Speed (m/s)", 0.4, 3.0, 0.1, 1.2)
+        preview: Any = gui.add_button("Preview poses", icon="eye", color="gray", hint="Before it is performed")
         go: Any = gui.add_button("Perform", icon="run", color="blue")
         script: Any = gui.add_button("Download as script", icon="file-download", color="gray")
         self._report: Any = gui.add_markdown("")
         more.on_click(guarded(lambda _: self._more(more.value)))
         self._add_do.on_click(guarded(lambda _: self.say_words(self._do.value)))
-        undo.on_click(guarded(lambda _: self.undo()))
-        clear.on_click(guarded(lambda _: self.change(Draft(self.history.now.start))))
+        undo.on_click(guarded(lambda _: self._session.undo()))
+        clear.on_click(guarded(lambda _: self.change(Draft(self.draft.start))))
+        preview.on_click(guarded(lambda _: self.preview()))
         go.on_click(guarded(lambda _: self.perform()))
         script.on_click(guarded(lambda _: self.download()))
-        gui.add_command("Undo the last click", hotkey="Z").on_trigger(guarded(lambda _: self.undo()))
 
     def load(self, file: Path) -> None:
         """Open a scene, or a script with its scene and steps.
@@ -119,29 +119,22 @@ class DirectPanel:
         self.change(Draft(script.start, tuple(script.steps)))
 
     def _uploaded(self, name: str, content: bytes) -> None:
-        file = self.uploads.keep(name, content)
+        uploads = self._session.uploads
+        file = uploads.keep(name, content)
         if file.suffix.lower() not in SCENE_SUFFIXES:
             self._session.say("Uploaded", f"{file.name}; a script or a map may name it")
             return
-        with self.uploads.alone():
+        with uploads.alone():
             self.load(file)
 
     def take(self, tool: str | None) -> None:
         """Another tool: what clicks mean from now on; None for nothing."""
-        if tool is not None and self._tool is None and self.scenery is None and not self.history.now.actions:
+        if tool is not None and self._tool is None and self.scenery is None and not self.draft.actions:
             self._session.frame_all(OPEN_GROUND)
         self._tool = tool
         self._joint.visible = tool == drafts.JOINT
-        scene = self._session.client.scene
-        if tool is not None and not self._listening:
-            scene.on_click()(self._clicked)
-        elif tool is None and self._listening:
-            scene.remove_click_callback(self._clicked)
-        self._listening = tool is not None
+        self._clicks.listen(on=tool is not None)
         self._tell()
-
-    def _clicked(self, event: Any) -> None:
-        self._session.guarded(lambda e: self.click(e.ray_origin, e.ray_direction))(event)
 
     def click(self, origin: Any, direction: Any) -> None:
         """A click in the picture: a ray."""
@@ -154,7 +147,7 @@ class DirectPanel:
         if self._tool == drafts.JOINT and y < 0.1 and not self._joint.value.endswith("_foot"):
             y += float(self._height.value)
         options = Options(self._joint.value, float(self._hold.value), float(self._height.value))
-        self.change(self.history.now.clicked(self._tool, (x, y, z), options, self._free()))
+        self.change(self.draft.clicked(self._tool, (x, y, z), options, self._free()))
 
     def _free(self) -> Any:
         if self.scenery is None:
@@ -170,29 +163,29 @@ class DirectPanel:
         """A step in words."""
         if not text.strip():
             raise InvalidInputError("write what to do, as in: sit on the sofa")
-        self.change(self.history.now.added(Do(text.strip(), float(self._hold.value))))
+        self.change(self.draft.added(Do(text.strip(), float(self._hold.value))))
 
     def _more(self, which: str) -> None:
         hold = float(self._hold.value)
-        self.change(self.history.now.added(Stand(hold) if which == "Stand" else Wait(hold)))
-
-    def undo(self) -> None:
-        """Take the last click back."""
-        if not self.history.undo():
-            self._session.say("Nothing to undo")
-        self._tell()
+        self.change(self.draft.added(Stand(hold) if which == "Stand" else Wait(hold)))
 
     def change(self, draft: Draft) -> None:
         """Another draft."""
-        self.history.push(draft)
+        if draft != self.draft:
+            self._session.remember()
+        self.put(draft)
+
+    def put(self, draft: Draft) -> None:
+        """Show a draft."""
+        self.draft = draft
         self._tell()
 
     def _dragged(self, drag: Dragged) -> None:
-        self.change(self.history.now.moved(drag.index, drag.joint, drag.point))
+        self.change(self.draft.moved(drag.index, drag.joint, drag.point))
 
     def _tell(self) -> None:
         """Show the draft."""
-        draft = self.history.now
+        draft = self.draft
         self._session.markers.draw(draft)
         self._session.reveal_scene(shown=True)
         self._told.content = f"click: **{self._tool}**" if self._tool else "choose a button, then click in the picture"
@@ -202,9 +195,25 @@ class DirectPanel:
         step = draft.steps[last] if bool(self._drag.value) and last >= 0 else None
         self._gizmos.show(last, step if isinstance(step, Act) else None)
 
+    def preview(self) -> None:
+        """Show the poses of the steps where they will be held, each as a figure of its own."""
+        acts = [step for step in self.draft.finished().steps if isinstance(step, Act)]
+        if not acts:
+            raise InvalidInputError("no pose yet: choose Sit, Grab or Joint and click in the picture")
+        runtime = self._session.workshop.runtime
+
+        def work(told: Told) -> list[tuple[str, Motion, str]]:
+            found = []
+            for number, act in enumerate(acts):
+                told(number, len(acts), f"pose {number + 1}")
+                found.append((act.name, runtime.pose(act.keypoints, act.heading).motion, "preview"))
+            return found
+
+        self._session.work("finding the poses", work, lambda rows, _: self._session.present(rows, world=True))
+
     def perform(self) -> None:
         """Let a character do it."""
-        draft, scenery, speed = self.history.now.finished(), self.scenery, float(self._speed.value)
+        draft, scenery, speed = self.draft.finished(), self.scenery, float(self._speed.value)
         if not draft.steps:
             raise InvalidInputError("nothing to do yet: choose Walk, Sit or Grab and click in the picture")
         runtime = self._session.workshop.runtime
@@ -234,7 +243,7 @@ class DirectPanel:
 
     def script(self) -> str:
         """The draft as YAML."""
-        draft, scenery = self.history.now.finished(), self.scenery
+        draft, scenery = self.draft.finished(), self.scenery
         if not draft.steps:
             raise InvalidInputError("a script needs at least one step")
         spec, cloud = (scenery.spec, scenery.cloud_file) if scenery else (None, None)

@@ -122,30 +122,6 @@ class Draft:
         return replace(self, steps=(*self.steps[:index], changed, *self.steps[index + 1 :]))
 
 
-@dataclass
-class History:
-    """Drafts, and the way back."""
-
-    drafts: list[Draft] = field(default_factory=lambda: [Draft()])
-
-    @property
-    def now(self) -> Draft:
-        """The draft."""
-        return self.drafts[-1]
-
-    def push(self, draft: Draft) -> None:
-        """Another draft, unless nothing changed."""
-        if draft != self.now:
-            self.drafts.append(draft)
-
-    def undo(self) -> bool:
-        """Back by one; whether there was a way back."""
-        if len(self.drafts) > 1:
-            self.drafts.pop()
-            return True
-        return False
-
-
 def end_of(action: Action) -> Place | None:
     """Where an action ends on the ground; None where it stays."""
     if isinstance(action, WalkTo):

@@ -22,6 +22,7 @@ from motionrt.studio.traffic import metered
 
 ANY = ("0.0.0.0", "::", "")
 LOOPBACK = ("127.0.0.1", "localhost", "::1")
+_COOKIE = "Path=/; HttpOnly; SameSite=Strict"
 HEADERS = {
     "X-Frame-Options": "DENY",
     "Content-Security-Policy": "frame-ancestors 'none'",
@@ -44,6 +45,7 @@ class Gate:
         self.token = secrets.token_urlsafe(24)
         self.windows = 0
         self.installed = False
+        self._browsers: list[str | None] = []
 
     @property
     def url(self) -> str:
@@ -55,6 +57,19 @@ class Gate:
     def cookie(self) -> str:
         """Its name; cookies do not know ports, so the name does."""
         return f"motionrt-{self.port}"
+
+    @property
+    def browser_cookie(self) -> str:
+        """The name of the cookie that tells browsers apart, so that a reload finds the work of its own window."""
+        return f"{self.cookie}-browser"
+
+    def arrived(self, request: Any) -> None:
+        """A socket was let in; viser numbers them in the order of this."""
+        self._browsers.append(self._read_cookie(request, self.browser_cookie))
+
+    def browser_of(self, number: int) -> str | None:
+        """Which browser the socket of a number came from; None where it does not say."""
+        return self._browsers[number] if 0 <= number < len(self._browsers) else None
 
     def refusal(self, request: Any, *, is_socket: bool) -> tuple[http.HTTPStatus, str] | None:
         """Why a request is refused, or None."""
@@ -73,7 +88,9 @@ class Gate:
         for name, value in HEADERS.items():
             response.headers[name] = value
         if self._token_of(request) is not None:
-            response.headers["Set-Cookie"] = f"{self.cookie}={self.token}; Path=/; HttpOnly; SameSite=Strict"
+            response.headers["Set-Cookie"] = f"{self.cookie}={self.token}; {_COOKIE}"
+            if self._read_cookie(request, self.browser_cookie) is None:
+                response.headers["Set-Cookie"] = f"{self.browser_cookie}={secrets.token_urlsafe(16)}; {_COOKIE}"
         return response
 
     def _names_us(self, host: str | None) -> bool:
@@ -96,9 +113,13 @@ class Gate:
         return next(iter(parse_qs(urlsplit(request.path).query, max_num_fields=20).get("token", [])), None)
 
     def _cookie_of(self, request: Any) -> str | None:
+        return self._read_cookie(request, self.cookie)
+
+    @staticmethod
+    def _read_cookie(request: Any, name: str) -> str | None:
         for header in request.headers.get_all("Cookie"):
             try:
-                found = SimpleCookie(header).get(self.cookie)
+                found = SimpleCookie(header).get(name)
             except CookieError:
                 continue
             if found is not None:
@@ -128,6 +149,7 @@ def serving_through(gate: Gate, serve: Callable[..., Any]) -> Callable[..., Any]
 
         async def handle(connection: Any) -> None:
             gate.windows += 1
+            gate.arrived(connection.request)
             try:
                 await handler(metered(connection))
             finally:

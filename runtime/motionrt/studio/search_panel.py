@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import html
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from motionrt.errors import InvalidInputError
 from motionrt.motion import Motion
+from motionrt.motion.notebook import strip
 from motionrt.studio.jobs import Told
 
 if TYPE_CHECKING:
@@ -14,6 +16,7 @@ if TYPE_CHECKING:
     from motionrt.studio.windows import StudioWindow
 
 HITS, PLAYED = 10, 3
+PICTURED, STRIP = 5, 4  # hits with a picture, and the poses of each
 EXAMPLE = "a person walks in a circle"
 Row = tuple[str, Motion, str]
 
@@ -50,27 +53,29 @@ class SearchPanel:
             if not hits:
                 raise InvalidInputError(hits.notice or "the gallery has no such motion")
             gallery = shop.runtime.gallery(shop.gallery)
-            return hits, [_row(hit, gallery.motion(hit)) for hit in hits[:played]]
+            return hits, [_row(hit, gallery.motion(hit)) for hit in hits[: max(played, PICTURED)]]
 
         def done(found: tuple[list[Hit], list[Row]], seconds: float) -> None:
             hits, rows = found
-            self._list(hits, seconds)
-            self._session.present(rows, keep=bool(self._keep.value))
+            self._list(hits, rows, seconds)
+            self._session.present(rows[:played], keep=bool(self._keep.value), made=False)
 
         self._session.work(f"searching for “{text}”", work, done)
 
     def play(self, hit: Hit) -> None:
         """Play one hit."""
         motion = self._session.workshop.runtime.gallery(self._session.workshop.gallery).motion(hit)
-        self._session.present([_row(hit, motion)], keep=bool(self._keep.value))
+        self._session.present([_row(hit, motion)], keep=bool(self._keep.value), made=False)
 
-    def _list(self, hits: list[Hit], seconds: float) -> None:
+    def _list(self, hits: list[Hit], rows: list[Row], seconds: float) -> None:
         for row in self._rows:
             row.remove()
         gui = self._session.client.gui
         with self._folder:
             self._rows = [gui.add_markdown(f"{len(hits)} hits in {1000 * seconds:.0f} ms; click one to play it")]
-            self._rows += [self._button(hit) for hit in hits]
+            for number, hit in enumerate(hits):
+                self._rows.append(self._button(hit))
+                self._rows.append(gui.add_html(card(hit, rows[number][1] if number < len(rows) else None)))
         self._folder.visible = True
 
     def _button(self, hit: Hit) -> Any:
@@ -85,6 +90,16 @@ def label(hit: Hit) -> str:
     name = hit.text or Path(hit.id).stem.replace("-", " ")
     short = name if len(name) <= 34 else f"{name[:33]}…"
     return f"{hit.rank}.  {hit.score:.2f}  {short}"
+
+
+def card(hit: Hit, motion: Motion | None) -> str:
+    """HTML below the button of a hit: where it lies, how long it is, its words, and a strip of poses."""
+    folder = Path(hit.id).parent.as_posix()
+    facts = (f"{hit.end_s - hit.start_s:.1f} s", folder if folder != "." else "", hit.text or "")
+    said = html.escape(" · ".join(fact for fact in facts if fact))
+    words = f'<div style="opacity:0.7;overflow-wrap:anywhere">{said}</div>'
+    drawn = "" if motion is None else f'<div style="zoom:0.62">{strip(motion, STRIP)}</div>'
+    return f'<div style="padding:0 0.8em 0.5em;font-size:0.8em;line-height:1.25">{drawn}{words}</div>'
 
 
 def _row(hit: Hit, motion: Motion) -> Row:

@@ -13,6 +13,7 @@ from motionrt.errors import InvalidInputError
 from motionrt.studio.gate import Gate, serving_through
 from motionrt.studio.layout import AS_RECORDED, frame_all, offsets
 from motionrt.studio.session import ASPECT, FIELD_OF_VIEW, PANEL_PIXELS, Session, scenery_boxes
+from motionrt.studio.state import Kept
 from motionrt.studio.windows import Show
 
 if TYPE_CHECKING:
@@ -34,10 +35,19 @@ class Page:
         url: where it is, with the token that lets a browser in.
         make: what a new window gets.
         show: what it begins with.
+        browser_of: which browser a window of a number belongs to.
     """
 
-    def __init__(self, server: Any, url: str, make: MakeSession, show: Show) -> None:
+    def __init__(
+        self,
+        server: Any,
+        url: str,
+        make: MakeSession,
+        show: Show,
+        browser_of: Callable[[int], str | None] = lambda _: None,
+    ) -> None:
         self.server, self.url, self.show = server, url, show
+        self._browser_of, self._kept = browser_of, Kept()
         self._make = make
         self.sessions: dict[int, Session] = {}
         self._stopped = threading.Event()
@@ -61,11 +71,15 @@ class Page:
     def _opened(self, client: Any) -> None:
         session = self._make(client, self.show)
         self.sessions[client.client_id] = session
+        state = self._kept.take(self._browser_of(client.client_id))
+        if state is not None:
+            session.take_up(state)
         threading.Thread(target=session.run, daemon=True, name=f"window {client.client_id}").start()
 
     def _closed(self, client: Any) -> None:
         session = self.sessions.pop(client.client_id, None)
         if session is not None:
+            self._kept.keep(self._browser_of(client.client_id), session.state())
             session.close()
 
 
@@ -94,6 +108,8 @@ def open_studio(show: Show, workshop: Workshop, *, host: str = HOST, port: int =
     """
     from motionrt.studio.studio_session import StudioSession
 
+    workshop.open_ahead()
+
     def make(client: Any, begin: Show) -> Session:
         return StudioSession(client, begin, workshop)
 
@@ -107,7 +123,7 @@ def serve(make: MakeSession, show: Show, *, host: str, port: int, title: str) ->
     server = _guarded_server(viser, gate, title)
     _furnish(server)
     _aim(server, show)
-    return Page(server, gate.url, make, show)
+    return Page(server, gate.url, make, show, gate.browser_of)
 
 
 def _guarded_server(viser: Any, gate: Gate, title: str) -> Any:

@@ -17,6 +17,7 @@ from motionrt.studio.layout import frame_all
 from motionrt.studio.markers import Markers, draw_scenery
 from motionrt.studio.scenery import Scenery
 from motionrt.studio.stage import Stage
+from motionrt.studio.state import State
 from motionrt.studio.transport import Transport
 from motionrt.studio.view_panel import ViewPanel
 from motionrt.studio.windows import Show
@@ -150,6 +151,13 @@ class Session:
                 self.transport.refresh()
                 if self.follow:
                     self._follow()
+
+    def state(self) -> State:
+        """What the window holds that is worth keeping; a viewer's files are on the machine."""
+        return State()
+
+    def take_up(self, state: State) -> None:
+        """Go on where a window that was closed left off; the studio does."""
 
     def close(self) -> None:
         """The window is gone."""

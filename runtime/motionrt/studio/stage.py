@@ -19,6 +19,7 @@ from motionrt.studio.figure import figure_of
 SHADOW, STEP_HEIGHT, TRAIL_HEIGHT = 0.004, 0.010, 0.007  # metres above the ground, so that nothing flickers
 BLOT = ((0.32, 0.0), (0.24, 0.001), (0.15, 0.002))  # radius and lift of its discs, metres
 SHADOW_COLOUR = (40, 44, 56)
+TITLE_ABOVE = 0.28  # metres above the highest joint, so that no name covers a head
 
 
 @dataclass
@@ -28,6 +29,7 @@ class Look:
     trails: bool = True
     feet: bool = True
     names: bool = False
+    titles: bool = True
     layout: str = layout.AS_RECORDED
 
 
@@ -43,6 +45,7 @@ class Actor:
     feet: list[Any]
     extras: list[Any] = field(default_factory=list)
     labels: list[Any] = field(default_factory=list)
+    title: Any = None
     visible: bool = True
 
     @property
@@ -164,7 +167,7 @@ class Stage:
         """Trail, footsteps and names, as far as they are wanted."""
         for node in (*actor.extras, *actor.labels):
             node.remove()
-        actor.extras, actor.labels = [], []
+        actor.extras, actor.labels, actor.title = [], [], None
         if not actor.visible:
             return
         scene, name = self.client.scene, actor.root.name
@@ -180,6 +183,11 @@ class Stage:
             actor.extras.append(scene.add_mesh_simple(f"{name}/steps", *marks, opacity=0.35, **plain))
         for ring in actor.feet:
             ring.visible = False
+        if self.look.titles and len(self.actors) > 1:
+            actor.title = scene.add_label(
+                f"{name}/title", actor.clip.name[:40], font_screen_scale=0.85, anchor="bottom-center"
+            )
+            actor.extras.append(actor.title)
         if self.look.names:
             joints = zip(actor.clip.motion.skeleton.names, actor.clip.joints[0], strict=False)
             actor.labels = [
@@ -193,7 +201,7 @@ class Stage:
         """Off the stage, but kept: the page need not get a body twice (and viser 1.1 ends when one is taken away)."""
         for node in (*actor.extras, *actor.labels):
             node.remove()
-        actor.extras, actor.labels = [], []
+        actor.extras, actor.labels, actor.title = [], [], None
         actor.root.visible = False
         self._spare.append(actor)
 
@@ -209,6 +217,9 @@ def _draw(actor: Actor, time: float) -> None:
     for bone, place, turn in zip(actor.body.bones, joints.tolist(), turns.tolist(), strict=True):
         bone.position, bone.wxyz = place, turn
     actor.shadow.position = (float(joints[0, 0]), SHADOW, float(joints[0, 2]))
+    if actor.title is not None:
+        top = joints[:, 1].max() + TITLE_ABOVE
+        actor.title.position = (float(joints[0, 0]), float(top), float(joints[0, 2]))
     for label, place in zip(actor.labels, joints.tolist(), strict=False):
         label.position = place
     _draw_feet(actor, time)

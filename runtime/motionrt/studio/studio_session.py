@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
+from pathlib import Path
 from typing import Any, TypeVar
+
+import numpy as np
 
 from motionrt.errors import InvalidInputError
 from motionrt.motion import Motion
@@ -14,14 +17,19 @@ from motionrt.studio.export_panel import ExportPanel
 from motionrt.studio.jobs import Cancelled, Jobs, Work
 from motionrt.studio.layout import AS_RECORDED, SIDE_BY_SIDE
 from motionrt.studio.make_panel import MakePanel
+from motionrt.studio.open_panel import OpenPanel
+from motionrt.studio.plan_panel import PlanPanel
 from motionrt.studio.search_panel import SearchPanel
 from motionrt.studio.session import Session
+from motionrt.studio.state import Past, State
+from motionrt.studio.uploads import Uploads
 from motionrt.studio.windows import Show
 from motionrt.studio.workshop import Workshop
 
 T = TypeVar("T")
 NOTHING = "nothing yet"
 _PROGRESS_S = 0.1
+FAR = 4.0  # metres from the start from which on the camera goes along
 
 
 class StudioSession(Session):
@@ -37,6 +45,7 @@ class StudioSession(Session):
 
     def __init__(self, client: Any, show: Show, workshop: Workshop) -> None:
         self.workshop = workshop
+        self.uploads, self._past = Uploads(), Past()
         self.jobs = Jobs(workshop.desk, self._progress)
         self._progress_at = 0.0
         super().__init__(client, show)
@@ -55,14 +64,20 @@ class StudioSession(Session):
             self.search = SearchPanel(self)
         with tabs.add_tab("Make", "wand"):
             self.make = MakePanel(self)
+        with tabs.add_tab("Plan", "timeline"):
+            self.plan = PlanPanel(self)
         with tabs.add_tab("Direct", "route"):
             self.direct = DirectPanel(self)
+        with tabs.add_tab("Open", "folder-open"):
+            self.open = OpenPanel(self)
         with tabs.add_tab("Export", "download"):
             self.export = ExportPanel(self)
+        gui.add_command("Undo", hotkey="Z").on_trigger(self.guarded(lambda _: self.undo()))
 
     def show(self, clips: Sequence[Clip], *, rewind: bool = False) -> None:
         """As for any window; what is selected follows."""
         super().show(clips, rewind=rewind)
+        self.open.refresh(empty=not self.stage.clips)
         self.export.refresh()
         self.make.refresh()
 
@@ -71,24 +86,83 @@ class StudioSession(Session):
         self.export.refresh()
         self.make.refresh()
 
-    def present(self, motions: Sequence[tuple[str, Motion, str]], *, keep: bool = False, world: bool = False) -> None:
+    def present(
+        self,
+        motions: Sequence[tuple[str, Motion, str]],
+        *,
+        keep: bool = False,
+        world: bool = False,
+        made: bool = True,
+    ) -> None:
         """Play new motions (name, motion, note) from the start.
 
         Args:
             motions: what to play.
             keep: leave what is on the stage there.
             world: they stand where they stand; otherwise several are put side by side.
+            made: they are somebody's work; hits, which are not, leave all work on the stage.
         """
         with self.lock:
-            clips = list(self.stage.clips) if keep else []
+            self.remember()
+            clips = [clip for clip in self.stage.clips if keep or (clip.made and not made)]
             for name, motion, note in motions:
-                clips.append(Clip(unique(name, clips), motion, _other_colour(clips), note))
-            self.view.set_layout(AS_RECORDED if world or len(clips) < 2 else SIDE_BY_SIDE)
-            self.clock.playing = True
+                clips.append(self.clip(name, motion, clips, note=note, made=made))
             self.reveal_scene(shown=world)
-            self.show(clips, rewind=True)
+            self.put_clips(clips, AS_RECORDED if world or len(clips) < 2 else SIDE_BY_SIDE)
             if not world or self.scenery is None:  # who directs has chosen where to look from
                 self.frame_all()
+
+    def clip(self, name: str, motion: Motion, beside: Sequence[Clip], *, note: str = "", made: bool = True) -> Clip:
+        """A clip with a name and a colour that no other has."""
+        return Clip(unique(name, beside), motion, _other_colour(beside), note, made)
+
+    def put_clips(self, clips: Sequence[Clip], layout: str) -> None:
+        """Put these clips on the stage and play them from the start; the camera goes along with long ways."""
+        self.view.set_layout(layout)
+        self.view.set_follow(on=any(_goes_far(clip) for clip in clips))
+        self.clock.playing = True
+        self.show(clips, rewind=True)
+
+    def state(self) -> State:
+        """What the window holds now."""
+        return State(tuple(self.stage.clips), self.stage.look.layout, self.direct.draft, self.plan.draft, self.scenery)
+
+    def remember(self) -> None:
+        """Before a change: what there is now is what undo brings back."""
+        self._past.push(self.state())
+
+    def undo(self) -> None:
+        """Take the last change back, whatever it was."""
+        state = self._past.pop()
+        if state is None:
+            self.say("Nothing to undo")
+        else:
+            self.restore(state)
+
+    def restore(self, state: State) -> None:
+        """Show what was there at another time."""
+        with self.lock:
+            if state.scenery is not self.scenery:
+                self.set_scenery(state.scenery)
+            self.direct.put(state.draft)
+            self.plan.put(state.plan)
+            if list(state.clips) != self.stage.clips:
+                self.put_clips(state.clips, state.layout)
+
+    def take_up(self, state: State) -> None:
+        """Go on where a window that was closed left off."""
+        self.remember()
+        self.restore(state)
+        self.frame_all()
+        self.say("Your work is here again", "as it was when the window was closed; Z takes it back")
+
+    def open_script(self, file: Path) -> None:
+        """Take over a script or a scene that was uploaded."""
+        self.direct.load(file)
+
+    def open_plan(self, file: Path) -> None:
+        """Take over a plan that was uploaded."""
+        self.plan.open(file)
 
     @property
     def selected(self) -> Clip:
@@ -129,7 +203,7 @@ class StudioSession(Session):
         """The window is gone, and what it asked for is not wanted any more."""
         super().close()
         self.jobs.cancel()
-        self.direct.uploads.close()
+        self.uploads.close()
 
     def _failed(self, error: BaseException) -> None:
         if isinstance(error, Cancelled):
@@ -155,3 +229,9 @@ def _other_colour(clips: Sequence[Clip]) -> tuple[int, int, int]:
     """The first colour that no clip has."""
     taken = {clip.colour for clip in clips}
     return next((colour(i) for i in range(len(clips) + 1) if colour(i) not in taken), colour(len(clips)))
+
+
+def _goes_far(clip: Clip) -> bool:
+    """Whether a clip leaves what is in sight at its start."""
+    way = clip.motion.root[:, [0, 2]] - clip.motion.root[0, [0, 2]]
+    return bool(np.linalg.norm(way, axis=1).max() > FAR)

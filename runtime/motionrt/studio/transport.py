@@ -11,6 +11,14 @@ if TYPE_CHECKING:
 
 STEPS = ("|◀", "◀ 1", "1 ▶", "▶|")
 SPEEDS = {"¼×": 0.25, "½×": 0.5, "1×": 1.0, "2×": 2.0, "4×": 4.0}
+KEYS = (
+    ("Play or pause", "space", 0),
+    ("Play or pause (P)", "P", 0),
+    ("Frame back", "arrowleft", -1),
+    ("Frame back (J)", "J", -1),
+    ("Frame on", "arrowright", 1),
+    ("Frame on (K)", "K", 1),
+)
 _REFRESH_S = 0.1  # the slider follows the clock ten times a second, figures thirty times
 
 
@@ -25,7 +33,7 @@ class Transport:
         self._session, self._shown_at = session, 0.0
         gui, guarded = session.client.gui, session.guarded
         with gui.add_folder("Playback"):
-            self._play: Any = gui.add_button("Pause", icon="player-pause", hint="Key P")
+            self._play: Any = gui.add_button("Pause", icon="player-pause", hint="Space or P")
             self._steps: Any = gui.add_button_group("Step", STEPS)
             self._time: Any = gui.add_slider("Time (s)", 0.0, 1.0, 0.01, 0.0)
             self._speed: Any = gui.add_button_group("Speed", tuple(SPEEDS))
@@ -36,9 +44,12 @@ class Transport:
         self._time.on_update(guarded(lambda _: self._scrub()))
         self._speed.on_click(guarded(lambda _: self._set_speed(self._speed.value)))
         self._loop.on_update(guarded(lambda _: self._set_loop()))
-        for label, key, move in (("Play or pause", "P", 0), ("Frame back", "J", -1), ("Frame on", "K", 1)):
+        for label, key, move in KEYS:
             command = gui.add_command(label, hotkey=key)
             command.on_trigger(guarded(partial(self._command, move)))
+        for tenth in range(10):
+            command = gui.add_command(f"Go to {10 * tenth} %", hotkey=str(tenth))
+            command.on_trigger(guarded(partial(self._go, tenth / 10)))
         self.refit()
 
     def refit(self) -> None:
@@ -89,6 +100,11 @@ class Transport:
             self._jump(frames)
         else:
             self.toggle()
+
+    def _go(self, share: float, _: object) -> None:
+        """A number key: to so many tenths of the clip."""
+        self._session.clock.seek(share * self._session.clock.duration)
+        self._session.redraw()
 
     def _scrub(self) -> None:
         self._session.clock.playing = False

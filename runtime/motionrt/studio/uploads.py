@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-import re
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 from motionrt.errors import InvalidInputError, MotionRTError
+from motionrt.formats import MOTION_SUFFIXES
+from motionrt.studio.project import plain_name
 from motionrt.untrusted.files import confined
 
 SCENE_SUFFIXES = (".yaml", ".yml", ".obj", ".ply", ".glb", ".stl", ".off")
 """What is opened at once; anything else is kept for a script or a map that names it."""
 
-_KEPT = (*SCENE_SUFFIXES, ".gltf", ".bin", ".pgm", ".png", ".bmp", ".jpg", ".jpeg", ".tif", ".tiff", ".csv", ".npz")
+_PICTURES = (".pgm", ".png", ".bmp", ".jpg", ".jpeg", ".tif", ".tiff")
+_KEPT = tuple(dict.fromkeys((*SCENE_SUFFIXES, *MOTION_SUFFIXES, ".asf", ".json", ".bin", ".csv", *_PICTURES)))
 _MOST = 100  # files of a window
 
 
@@ -30,9 +32,9 @@ class Uploads:
         Raises:
             InvalidInputError: no file of such a kind is read, or there are too many.
         """
-        plain = re.sub(r"[^\w.-]+", "_", name.replace("\\", "/").rpartition("/")[2], flags=re.ASCII).lstrip(".")[-80:]
+        plain = plain_name(name)
         if Path(plain).suffix.lower() not in _KEPT:
-            raise InvalidInputError(f"a scene is one of {', '.join(_KEPT)}")
+            raise InvalidInputError(f"what is read is one of {', '.join(_KEPT)}")
         if self._folder is None:
             self._folder = tempfile.TemporaryDirectory(prefix="motionrt-", ignore_cleanup_errors=True)
         folder = Path(self._folder.name)

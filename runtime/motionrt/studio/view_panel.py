@@ -31,10 +31,11 @@ class ViewPanel:
             self._layout: Any = gui.add_dropdown("Layout", LAYOUTS, initial_value=look.layout)
             self._trails: Any = gui.add_checkbox("Trails", initial_value=look.trails, hint="Way of the pelvis")
             self._feet: Any = gui.add_checkbox("Planted feet", initial_value=look.feet)
+            self._titles: Any = gui.add_checkbox("Clip names", initial_value=look.titles)
             self._names: Any = gui.add_checkbox("Joint names", initial_value=look.names)
             self._follow: Any = gui.add_checkbox("Camera follows", initial_value=False)
             frame: Any = gui.add_button("Frame all", icon="focus-2", hint="Key F")
-        for control in (self._layout, self._trails, self._feet, self._names, self._follow):
+        for control in (self._layout, self._trails, self._feet, self._titles, self._names, self._follow):
             control.on_update(session.guarded(lambda _: self._changed()))
         frame.on_click(session.guarded(lambda _: session.frame_all()))
         gui.add_command("Frame all", hotkey="F").on_trigger(session.guarded(lambda _: session.frame_all()))
@@ -66,6 +67,10 @@ class ViewPanel:
         """Choose a layout for what comes next."""
         self._session.stage.look.layout = self._layout.value = layout
 
+    def set_follow(self, *, on: bool) -> None:
+        """Whether the camera goes along with what comes next."""
+        self._session.follow = self._follow.value = on
+
     def _switch(self, actor: Actor) -> Any:
         box = self._session.client.gui.add_checkbox(actor.clip.name[:40], initial_value=actor.visible)
 
@@ -82,6 +87,7 @@ class ViewPanel:
         session.follow = bool(self._follow.value)
         look.layout, look.trails = self._layout.value, bool(self._trails.value)
         look.feet, look.names = bool(self._feet.value), bool(self._names.value)
+        look.titles = bool(self._titles.value)
         session.rearrange()
         if turned:
             session.frame_all()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any, Protocol, TypeVar
 
 from motionrt.motion import Motion
@@ -15,6 +16,8 @@ from motionrt.studio.jobs import Work
 from motionrt.studio.markers import Markers
 from motionrt.studio.scenery import Scenery
 from motionrt.studio.stage import Stage
+from motionrt.studio.state import State
+from motionrt.studio.uploads import Uploads
 from motionrt.studio.workshop import Workshop
 
 T = TypeVar("T")
@@ -73,6 +76,31 @@ class StudioWindow(Window, Protocol):
     given: Show
     markers: Markers
     scenery: Scenery | None
+    uploads: Uploads
+
+    def state(self) -> State:
+        """What the window holds now."""
+
+    def remember(self) -> None:
+        """Before a change: what there is now is what undo brings back."""
+
+    def undo(self) -> None:
+        """Take the last change back, whatever it was."""
+
+    def clip(self, name: str, motion: Motion, beside: Sequence[Clip], *, note: str = "", made: bool = True) -> Clip:
+        """A clip with a name and a colour that no other has."""
+
+    def put_clips(self, clips: Sequence[Clip], layout: str) -> None:
+        """Put these clips on the stage and play them from the start."""
+
+    def open_script(self, file: Path) -> None:
+        """Take over a script or a scene that was uploaded."""
+
+    def open_plan(self, file: Path) -> None:
+        """Take over a plan that was uploaded."""
+
+    def complain(self, words: str, seconds: float | None = 15.0) -> None:
+        """A red note on the page."""
 
     @property
     def selected(self) -> Clip:
@@ -81,7 +109,14 @@ class StudioWindow(Window, Protocol):
     def work(self, title: str, work: Work[T], done: Callable[[T, float], None]) -> None:
         """Do something in the background, and tell the page how it goes."""
 
-    def present(self, motions: Sequence[tuple[str, Motion, str]], *, keep: bool = False, world: bool = False) -> None:
+    def present(
+        self,
+        motions: Sequence[tuple[str, Motion, str]],
+        *,
+        keep: bool = False,
+        world: bool = False,
+        made: bool = True,
+    ) -> None:
         """Play new motions (name, motion, note) from the start."""
 
     def set_scenery(self, scenery: Scenery | None) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import re
 import tempfile
 import threading
@@ -9,7 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from motionrt.errors import InvalidInputError
+from motionrt.errors import InvalidInputError, MotionRTError
 from motionrt.formats import WRITABLE_SUFFIXES
 from motionrt.motion import Motion
 
@@ -34,6 +35,17 @@ class Workshop:
     folder: Path | None = None
     local: bool = True
     desk: threading.Lock = field(default_factory=threading.Lock)
+
+    def open_ahead(self) -> None:
+        """Begin to open the models that a first search and a first generation need, beside everything else."""
+        threading.Thread(target=self._open, daemon=True, name="motionrt models").start()
+
+    def _open(self) -> None:
+        with contextlib.suppress(MotionRTError), self.desk:  # whoever needs them is told what is wrong
+            self.runtime.gallery(self.gallery)
+            self.runtime.retrieve("walk", 1, self.gallery)
+        with contextlib.suppress(MotionRTError), self.desk:
+            self.runtime.generate("walk", 1.0, seed=0)
 
 
 def formats() -> tuple[str, ...]:
