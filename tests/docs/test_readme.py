@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import os
 import re
-import shlex
 import signal
 import subprocess
 import sys
@@ -13,6 +11,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from shell import shell_environment
 
 tomllib = pytest.importorskip("tomllib", reason="reading pyproject.toml needs Python 3.11")
 ROOT = Path(__file__).parents[2]
@@ -47,18 +46,6 @@ def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-def environment(folder: Path) -> dict[str, str]:
-    """A shell that finds this motionrt, and whose browser is nobody."""
-    scripts = folder / ".bin"
-    scripts.mkdir(exist_ok=True)
-    command = scripts / "motionrt"
-    command.write_text(f'#!/bin/sh\nexec {shlex.quote(sys.executable)} -m motionrt "$@"\n')
-    command.chmod(0o755)
-    paths = [str(Path(path).resolve()) for path in sys.path if path]
-    path = f"{scripts}{os.pathsep}{os.environ['PATH']}"
-    return {**os.environ, "PATH": path, "PYTHONPATH": os.pathsep.join(paths), "BROWSER": "true"}
-
-
 @pytest.mark.skipif(sys.platform == "win32", reason="the README's commands are run by a POSIX shell")
 @pytest.mark.parametrize(("language", "text"), SHOWN, ids=[text.splitlines()[0][:60] for _, text in SHOWN])
 def test_what_the_readme_shows_works_as_it_is_copied(language: str, text: str, place: Path) -> None:
@@ -72,7 +59,7 @@ def test_what_the_readme_shows_works_as_it_is_copied(language: str, text: str, p
         serve_and_stop(text, place)
         return
     command = ["bash", "-c", SHORTER.get(text, text)] if language == "bash" else [sys.executable, "-c", text]
-    done = subprocess.run(command, cwd=place, env=environment(place), capture_output=True, text=True, check=False)
+    done = subprocess.run(command, cwd=place, env=shell_environment(place), capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     for out in re.findall(r"-o (\S+)|save\(\"([^\"]+)\"\)", text):
         assert (place / (out[0] or out[1])).stat().st_size > 0
@@ -91,7 +78,11 @@ def check_installation(text: str) -> None:
 def serve_and_stop(text: str, place: Path) -> None:
     """The page is announced, and Ctrl-C ends it without complaint."""
     process = subprocess.Popen(
-        ["bash", "-c", f"exec {text} --port 0"], cwd=place, env=environment(place), stderr=subprocess.PIPE, text=True
+        ["bash", "-c", f"exec {text} --port 0"],
+        cwd=place,
+        env=shell_environment(place),
+        stderr=subprocess.PIPE,
+        text=True,
     )
     assert process.stderr is not None
     try:

@@ -5,12 +5,15 @@ Motions are compared with the forward kinematics that comes with the cases, whic
 
 from __future__ import annotations
 
+import shutil
+import subprocess
 import sys
 import warnings
 from pathlib import Path
 from typing import Any
 
 import pytest
+from shell import shell_environment
 
 from motionrt import load_motion
 from motionrt.cli import main
@@ -142,3 +145,24 @@ def test_a_mistake_in_a_script_is_named(
 def test_a_text_without_a_known_word_says_so(text: str, capsys: pytest.CaptureFixture[str]) -> None:
     main(["retrieve", text, "-k", "1"])
     assert "no word of the query is known" in capsys.readouterr().err
+
+
+ABOVE = {"24_nav2_maps", "27_scripts", "29_foreign_text"}  # checked above, in one process
+SCRIPTS = sorted({path.parent.name for path in CASES.glob("*/run.sh")} - ABOVE)
+SAID = {  # scripts whose exit code says something else than their words: how often they say what is wanted
+    "23_text_to_motion": ("pickled objects", 1),
+    "28_euler_flips": ("flips 0\n", 3),
+}
+
+
+@pytest.mark.skipif(shutil.which("bash") is None, reason="the cases' own scripts want bash")
+@pytest.mark.parametrize("name", SCRIPTS)
+def test_the_script_of_a_kept_case_is_content(name: str, tmp_path: Path) -> None:
+    """What EXPECT.txt says, as the case itself checks it, in a copy of its folder."""
+    for folder in (name, "_base"):
+        shutil.copytree(CASES / folder, tmp_path / folder)
+    command = ["bash", str(tmp_path / name / "run.sh")]
+    done = subprocess.run(command, env=shell_environment(tmp_path), capture_output=True, text=True, check=False)
+    said = done.stdout + done.stderr
+    words, count = SAID.get(name, ("", 0))
+    assert said.count(words) == count if words else done.returncode == 0, said
