@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from motionrt.cli.console import Progress, print_json, working
-from motionrt.cli.options import add_json, add_models, command, runtime
+from motionrt.cli.options import add_json, add_models, add_output, command, runtime
 from motionrt.cli.reading import INPUTS, add_reading, in_options, reading
 from motionrt.cli.skipped import SOME_SKIPPED, by_reason, say_skipped
 from motionrt.errors import InvalidInputError
@@ -34,6 +34,8 @@ The address is like postgresql://user@host/database#library or milvus://host:195
 broken off, the command may simply be given again. Search it by: motionrt retrieve TEXT --gallery ADDRESS"""
 DUPLICATES = """list the clips of a gallery that show the same motion: equal files, or as long and alike
 Mirror images are not the same."""
+SHEET = """write a contact sheet: every clip as a strip of poses, in one HTML file
+It opens in any browser and needs nothing else."""
 INFO = """show what a gallery holds, and check its files for damage"""
 
 
@@ -65,6 +67,9 @@ def add(commands: Any) -> None:
     compact.add_argument("--precision", choices=PRECISIONS, help="of stored embeddings (default: as it is)")
     verify = command(parts, "verify", run_verify, VERIFY)
     verify.add_argument("gallery", type=Path, help="a gallery, or the folder that was indexed")
+    sheet = command(parts, "sheet", run_sheet, SHEET)
+    sheet.add_argument("gallery", type=Path, nargs="?", help="a gallery, or the folder that was indexed")
+    add_output(sheet, "file to write (.html)")
     info = command(parts, "info", run_info, INFO)
     info.add_argument("gallery", type=Path, help="a gallery, or the folder that was indexed")
     for parser in (build, update):
@@ -168,6 +173,17 @@ def run_verify(arguments: argparse.Namespace) -> int:
         print_json({**describe(gallery), "whole": True})
     else:
         print(f"{gallery.folder}: whole ({len(gallery)} clips, {len(gallery.windows)} windows)")
+    return 0
+
+
+def run_sheet(arguments: argparse.Namespace) -> int:
+    """``gallery sheet``."""
+    from motionrt.retrieval.sheet import save_sheet
+    from motionrt.runtime import Runtime
+
+    gallery = Runtime().gallery(arguments.gallery)
+    path = save_sheet(gallery, arguments.output, Progress())
+    print(f"{path}: {len(gallery)} clips, {max(1, round(path.stat().st_size / 1000))} kB")
     return 0
 
 

@@ -17,7 +17,7 @@ from motionrt.studio.draft import Draft, Options
 from motionrt.studio.gizmos import Dragged, Gizmos
 from motionrt.studio.jobs import Told
 from motionrt.studio.postures import Place
-from motionrt.studio.scenery import open_scenery
+from motionrt.studio.scenery import is_plan, open_scenery
 from motionrt.studio.script_text import script_text
 from motionrt.studio.uploads import SCENE_SUFFIXES
 
@@ -63,7 +63,7 @@ class DirectPanel:
     def _add_scene(self, gui: Any) -> None:
         guarded = self._session.guarded
         upload: Any = gui.add_upload_button("Upload a mesh, a map or a script", icon="upload")
-        upload.on_upload(guarded(lambda _: self._uploaded(upload.value.name, upload.value.content)))
+        upload.on_upload(guarded(lambda _: self.uploaded(upload.value.name, upload.value.content)))
 
     def _add_tools(self, gui: Any) -> None:
         guarded = self._session.guarded
@@ -100,11 +100,14 @@ class DirectPanel:
         script.on_click(guarded(lambda _: self.download()))
 
     def load(self, file: Path) -> None:
-        """Open a scene, or a script with its scene and steps.
+        """Open a scene, a script with its scene and steps, or a plan.
 
         Raises:
             MotionRTError: it cannot be read; the message says why.
         """
+        if is_plan(file):
+            self._session.open_plan(file)
+            return
         scenery, script = open_scenery(file)
         if scenery is not None or script is None:
             self._session.set_scenery(scenery)
@@ -118,7 +121,8 @@ class DirectPanel:
         self._speed.value = min(max(script.speed, 0.4), 3.0)
         self.change(Draft(script.start, tuple(script.steps)))
 
-    def _uploaded(self, name: str, content: bytes) -> None:
+    def uploaded(self, name: str, content: bytes) -> None:
+        """Open a scene, a script or a plan of the user's, or keep what one of them names."""
         uploads = self._session.uploads
         file = uploads.keep(name, content)
         if file.suffix.lower() not in SCENE_SUFFIXES:

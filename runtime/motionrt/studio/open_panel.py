@@ -10,6 +10,7 @@ from motionrt.formats import MOTION_SUFFIXES, animations_of, load_motion
 from motionrt.studio.clips import Clip
 from motionrt.studio.layout import AS_RECORDED, LAYOUTS
 from motionrt.studio.project import PLAN, SCRIPT, SHEET, project_bytes, sheet_of, unpacked
+from motionrt.studio.scenery import SCRIPT_SUFFIXES
 
 if TYPE_CHECKING:
     from motionrt.studio.windows import StudioWindow
@@ -60,16 +61,16 @@ class OpenPanel:
         self._session.hand_over("project.zip", project_bytes(state))
 
     def uploaded(self, name: str, content: bytes) -> None:
-        """Open a file of the user's: a clip, a plan, or a ZIP of clips, a script and a plan."""
-        if Path(name).suffix.lower() == ".zip":
+        """Open a file of the user's: a clip, a plan, a scene, a script, or a ZIP of all of these."""
+        suffix = Path(name).suffix.lower()
+        if suffix == ".zip":
             self._open_bundle(content)
-            return
-        file = self._session.uploads.keep(name, content)
-        with self._session.uploads.alone():
-            if file.suffix.lower() in {".yaml", ".yml", ".json"}:
-                self._session.open_plan(file)
-            else:
+        elif suffix in MOTION_SUFFIXES:
+            file = self._session.uploads.keep(name, content)
+            with self._session.uploads.alone():
                 self._session.present(self._rows(file, Path(name).stem), keep=bool(self._keep.value))
+        else:
+            self._session.open_scene(name, content)
 
     def _open_bundle(self, content: bytes) -> None:
         files, uploads = unpacked(content), self._session.uploads
@@ -93,7 +94,7 @@ class OpenPanel:
             self._session.present(rows, keep=bool(self._keep.value))
         for problem in problems:
             self._session.complain(problem)
-        scripts = [file for file in kept.values() if file.suffix.lower() in {".yaml", ".yml"}]
+        scripts = [file for file in kept.values() if file.suffix.lower() in SCRIPT_SUFFIXES]
         if not rows and not scripts:
             raise InvalidInputError("; ".join(problems) or "the ZIP holds no motion, script or plan")
         for script in scripts[:1]:

@@ -119,6 +119,18 @@ def is_script(file: Path) -> bool:
     return isinstance(value, dict) and not ("image" in value and "steps" not in value)
 
 
+def is_plan(file: Path) -> bool:
+    """Whether a file holds a plan of texts rather than a script, a map or a mesh."""
+    from motionrt.locomotion.script_nodes import read_nodes
+
+    if file.suffix.lower() == ".json":
+        return True
+    if file.suffix.lower() not in SCRIPT_SUFFIXES:
+        return False
+    value = read_nodes(file).value
+    return isinstance(value, dict) and "steps" not in value and bool({"timeline", "targets", "keyframes"} & set(value))
+
+
 def floor_mesh(
     walkable: npt.NDArray[np.bool_], height: npt.NDArray[np.float32], origin: npt.NDArray[np.float64], cell: float
 ) -> shapes.Mesh:

@@ -156,8 +156,12 @@ class StudioSession(Session):
         self.frame_all()
         self.say("Your work is here again", "as it was when the window was closed; Z takes it back")
 
+    def open_scene(self, name: str, content: bytes) -> None:
+        """Take over a scene, a script or a plan, or keep a file that one of them names."""
+        self.direct.uploaded(name, content)
+
     def open_script(self, file: Path) -> None:
-        """Take over a script or a scene that was uploaded."""
+        """Take over a script, a plan or a scene that was uploaded."""
         self.direct.load(file)
 
     def open_plan(self, file: Path) -> None:

@@ -12,11 +12,11 @@ from motionrt.formats import MOTION_SUFFIXES
 from motionrt.studio.project import plain_name
 from motionrt.untrusted.files import confined
 
-SCENE_SUFFIXES = (".yaml", ".yml", ".obj", ".ply", ".glb", ".stl", ".off")
+SCENE_SUFFIXES = (".yaml", ".yml", ".json", ".obj", ".ply", ".glb", ".stl", ".off")
 """What is opened at once; anything else is kept for a script or a map that names it."""
 
 _PICTURES = (".pgm", ".png", ".bmp", ".jpg", ".jpeg", ".tif", ".tiff")
-_KEPT = tuple(dict.fromkeys((*SCENE_SUFFIXES, *MOTION_SUFFIXES, ".asf", ".json", ".bin", ".csv", *_PICTURES)))
+_KEPT = tuple(dict.fromkeys((*SCENE_SUFFIXES, *MOTION_SUFFIXES, ".asf", ".bin", ".csv", *_PICTURES)))
 _MOST = 100  # files of a window
 
 

@@ -99,6 +99,9 @@ class StudioWindow(Window, Protocol):
     def open_plan(self, file: Path) -> None:
         """Take over a plan that was uploaded."""
 
+    def open_scene(self, name: str, content: bytes) -> None:
+        """Take over a scene, a script or a plan, or keep a file that one of them names."""
+
     def complain(self, words: str, seconds: float | None = 15.0) -> None:
         """A red note on the page."""
 

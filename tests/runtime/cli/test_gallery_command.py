@@ -107,3 +107,15 @@ def test_a_mapping_file_is_used_and_checked(library: Path, tmp_path: Path, capsy
     mapping.write_text("[1]", encoding="utf-8")
     assert main(command) == 1
     assert "must map joint names" in capsys.readouterr().err
+
+
+def test_a_contact_sheet_shows_every_clip_and_survives_files_that_are_gone(
+    gallery: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "sheet.html"
+    assert main(["gallery", "sheet", str(gallery), "-o", str(out)]) == 0
+    assert "3 clips" in capsys.readouterr().out
+    assert out.read_text(encoding="utf-8").count("<svg") == 3
+    (gallery / "walk.bvh").unlink()
+    assert main(["gallery", "sheet", str(gallery), "-o", str(out)]) == 0
+    assert out.read_text(encoding="utf-8").count("<svg") == 2
