@@ -3,6 +3,7 @@
 python benchmarks/scale.py windows 10000 100000 1000000 -o docs/results/scale.json
 python benchmarks/scale.py windows 5000000 --exact-only -o ...
 python benchmarks/scale.py library 20000 -o ...
+python benchmarks/scale.py kills 20000 -o ...
 
 Vectors are unit vectors around many centres whose spread lies in few directions, as embeddings of motion have it
 (--noise: evenly everywhere, the worst case). All contenders answer in turn, so that a busy machine slows all alike;
@@ -29,7 +30,7 @@ from typing import Any
 import numpy as np
 
 from motionrt.motion.attributes import ATTRIBUTES
-from motionrt.retrieval import EMBEDDING_ONLY, Filter, Gallery, Search, find
+from motionrt.retrieval import EMBEDDING_ONLY, Filter, Gallery, Search, build_gallery, find, update_gallery
 from motionrt.retrieval.clip_table import ClipTable
 from motionrt.retrieval.records import WINDOW_TYPE, ModelStamp
 from motionrt.retrieval.strings import Strings
@@ -274,31 +275,33 @@ def cpu(call: Callable[[], Any]) -> tuple[Any, float, float]:
     return result, round(time.process_time() - began, 2), round(time.perf_counter() - clock, 2)
 
 
-def library(count: int, kills: int) -> dict[str, Any]:
-    """Build, update without changes, with 100 changed and 100 deleted; and killed at random moments."""
-    from motionrt.retrieval import build_gallery, update_gallery
-
-    told: dict[str, Any] = {"files": count}
+def library(count: int, jobs: int) -> dict[str, Any]:
+    """Build, update without changes, and with 100 files changed and 100 deleted."""
     with tempfile.TemporaryDirectory(dir=os.environ.get("MOTIONRT_SCRATCH")) as place:
         folder = Path(place) / "library"
         write_library(folder, count)
-        report, told["build_cpu_s"], told["build_s"] = cpu(lambda: build_gallery(folder, open_instant))
-        told["index_clips_per_s_without_model"] = round(report.clips_per_s, 1)
-        _, told["unchanged_cpu_s"], told["unchanged_s"] = cpu(lambda: update_gallery(folder, open_instant))
-        files = sorted(folder.rglob("*.npz"))
-        picked = random.Random(0).sample(files, 200)
-        for number, path in enumerate(picked[:100]):
-            shutil.copy(files[number], path)
-        for path in picked[100:]:
-            path.unlink()
-        gallery = folder / ".motionrt-gallery"
-        before = {path.name for path in gallery.iterdir()}
-        report, told["changed_cpu_s"], told["changed_s"] = cpu(lambda: update_gallery(folder, open_instant))
-        told["changed"] = [len(report.added), len(report.changed), len(report.removed), report.indexed]
-        written = [path for path in gallery.iterdir() if path.name not in before or path.name == "gallery.json"]
-        told["written_mb"] = round(sum(path.stat().st_size for path in written) / 1e6, 2)
-        told["gallery_mb"] = round(disk(gallery) / 1e6, 2)
-        told["killed"] = killed(folder, kills)
+        report, seconds = timed(lambda: build_gallery(folder, open_instant, jobs=jobs))
+        rate = {"build_s": seconds, "index_clips_per_s_without_model": round(report.clips_per_s, 1)}
+        return {"files": count, "jobs": jobs, **rate, **updates_of(folder)}
+
+
+def updates_of(folder: Path) -> dict[str, Any]:
+    """Updates of an indexed folder: processor's and clock's seconds, and bytes."""
+    told: dict[str, Any] = {}
+    _, told["unchanged_cpu_s"], told["unchanged_s"] = cpu(lambda: update_gallery(folder, open_instant))
+    files = sorted(folder.rglob("*.npz"))
+    picked = random.Random(0).sample(files, 200)
+    for number, path in enumerate(picked[:100]):
+        shutil.copy(files[number], path)
+    for path in picked[100:]:
+        path.unlink()
+    gallery = folder / ".motionrt-gallery"
+    before = {path.name for path in gallery.iterdir()}
+    report, told["changed_cpu_s"], told["changed_s"] = cpu(lambda: update_gallery(folder, open_instant))
+    told["changed"] = [len(report.added), len(report.changed), len(report.removed), report.indexed]
+    written = [path for path in gallery.iterdir() if path.name not in before or path.name == "gallery.json"]
+    told["written_mb"] = round(sum(path.stat().st_size for path in written) / 1e6, 2)
+    told["gallery_mb"] = round(disk(gallery) / 1e6, 2)
     return told
 
 
@@ -312,42 +315,45 @@ build_gallery({folder!r}, open_instant, out={out!r})
 """
 
 
-def killed(folder: Path, kills: int) -> dict[str, Any]:
+def killed(count: int, kills: int) -> dict[str, Any]:
     """A build in a process that is killed again and again: how much is read in all, and whether anything is lost."""
-    from motionrt.retrieval import build_gallery
-
-    out = folder.parent / "killed"
-    code = KILLED.format(here=str(Path(__file__).parent), paths=sys.path, folder=str(folder), out=str(out))
-    draw, died = random.Random(1), 0
-    for _ in range(kills):
-        child = subprocess.Popen([sys.executable, "-c", code])
-        try:
-            child.wait(draw.uniform(2, 8))
-        except subprocess.TimeoutExpired:
-            child.send_signal(signal.SIGKILL)
-            child.wait()
-            died += 1
-    report = build_gallery(folder, open_instant, out=out)
-    whole = Gallery.open(folder)
-    report.gallery.verify()
-    same = [clip.id for clip in report.gallery.clips] == sorted(clip.id for clip in whole.clips)
-    return {"kills": died, "left_to_index": report.indexed, "clips": len(report.gallery), "nothing_lost": same}
+    with tempfile.TemporaryDirectory(dir=os.environ.get("MOTIONRT_SCRATCH")) as place:
+        folder, out = Path(place) / "library", Path(place) / "killed"
+        write_library(folder, count)
+        code = KILLED.format(here=str(Path(__file__).parent), paths=sys.path, folder=str(folder), out=str(out))
+        draw, died = random.Random(1), 0
+        for _ in range(kills):
+            child = subprocess.Popen([sys.executable, "-c", code])
+            try:
+                child.wait(draw.uniform(2, 8))
+            except subprocess.TimeoutExpired:
+                child.send_signal(signal.SIGKILL)
+                child.wait()
+                died += 1
+        report = build_gallery(folder, open_instant, out=out)
+        report.gallery.verify()
+        files = sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*.npz"))
+        lost = [clip.id for clip in report.gallery.clips] != files
+    return {"files": count, "kills": died, "left_to_index": report.indexed, "lost": lost}
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
-    parser.add_argument("what", choices=("windows", "library"))
+    parser.add_argument("what", choices=("windows", "library", "kills"))
     parser.add_argument("sizes", type=int, nargs="+")
     parser.add_argument("--noise", action="store_true", help="evenly spread vectors, the worst case")
     parser.add_argument("--exact-only", action="store_true", help="no graphs, which take minutes to hours")
     parser.add_argument("--precision", nargs="*", default=["float16", "int8"])
     parser.add_argument("--kills", type=int, default=20)
+    parser.add_argument("--jobs", type=int, default=1, help="processes of the library's build")
     parser.add_argument("-o", "--out", type=Path)
     arguments = parser.parse_args()
     told = []
     for size in arguments.sizes:
         if arguments.what == "library":
-            told.append(library(size, arguments.kills))
+            told.append(library(size, arguments.jobs))
+        elif arguments.what == "kills":
+            told.append(killed(size, arguments.kills))
         else:
             told.append(
                 windows(size, noise=arguments.noise, exact_only=arguments.exact_only, precisions=arguments.precision)
