@@ -58,6 +58,7 @@ PAGES: dict[str, Page] = {
             "motionrt:Scene", "motionrt:Path", "motionrt:Goal", "motionrt:Walk", "motionrt:Performance",
             "motionrt.locomotion:Segment", "motionrt.locomotion:PerformanceMeasures", "motionrt:WalkTo",
             "motionrt:Follow", "motionrt:Act", "motionrt:Do", "motionrt:Stand", "motionrt:Wait", "motionrt:Script",
+            "motionrt.locomotion:Generate",
             "motionrt.locomotion:Agent", "motionrt.locomotion:Waypoints", "motionrt.locomotion:PoseSolution",
             "motionrt.locomotion:Crowd", "motionrt.locomotion:Stream", "motionrt.locomotion:Wish",
             "motionrt.locomotion:SemanticCloud", "motionrt.locomotion:load_cloud",

@@ -9,7 +9,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from motionrt.locomotion.actions import Act, Action, Do, Follow, Stand, Wait, WalkTo
+    from motionrt.locomotion.actions import Act, Action, Do, Follow, Generate, Stand, Wait, WalkTo
     from motionrt.locomotion.crowd import Crowd
     from motionrt.locomotion.goal_frame import Goal, canonicalise, uncanonicalise
     from motionrt.locomotion.path import Path, Waypoints
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from motionrt.locomotion.words import SemanticCloud, action_keypoints, load_cloud
 
 _HOMES = {
-    "actions": ("Act", "Action", "Do", "Follow", "Stand", "Wait", "WalkTo"),
+    "actions": ("Act", "Action", "Do", "Follow", "Generate", "Stand", "Wait", "WalkTo"),
     "goal_frame": ("Goal", "canonicalise", "uncanonicalise"),
     "path_following": ("Pace",),
     "path": ("Path", "Waypoints"),
@@ -47,6 +47,7 @@ __all__ = [
     "Crowd",
     "Do",
     "Follow",
+    "Generate",
     "Goal",
     "Pace",
     "Path",

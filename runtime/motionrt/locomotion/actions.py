@@ -108,6 +108,27 @@ class Do:
 
 
 @dataclass(frozen=True)
+class Generate:
+    """A motion that is made from a text where the character stands, as in "wave with the right hand".
+
+    Attributes:
+        text: what to do.
+        seconds: how long, 0.5 to 10 s.
+    """
+
+    text: str
+    seconds: float = 3.0
+
+    def __post_init__(self) -> None:
+        _check_seconds(self.seconds, self.text)
+
+    @property
+    def name(self) -> str:
+        """What it is called in the timeline."""
+        return self.text
+
+
+@dataclass(frozen=True)
 class Stand:
     """Stand up, or stand still: upright over the feet."""
 
@@ -129,7 +150,7 @@ class Wait:
         _check_seconds(self.seconds, self.name)
 
 
-Action = WalkTo | Follow | Act | Do | Stand | Wait
+Action = WalkTo | Follow | Act | Do | Generate | Stand | Wait
 
 
 def _check_seconds(seconds: float, name: str) -> None:

@@ -25,7 +25,7 @@ from motionrt.locomotion.path_following import Pace, Progress, walk
 from motionrt.locomotion.performance import Aim, Performance, Segment, performance_of
 from motionrt.locomotion.stepping import set_off, step_to
 from motionrt.locomotion.terrain import Heights, Terrain, raised
-from motionrt.locomotion.transitions import speed_of
+from motionrt.locomotion.transitions import LONGEST, placed, speed_of
 from motionrt.motion import Motion
 from motionrt.motion.rotations import wrapped
 
@@ -164,6 +164,18 @@ class Character:
         self._add("transition", name, self.models.transition(self.tail, pose, held=True), pose, level=level)
         self.moving = False
 
+    def show(self, motion: Motion, name: str) -> None:
+        """A motion that begins where the character stands, facing as it does, and a stand behind it."""
+        if self.moving:
+            self.stand_here(name)
+        shown = placed(motion, Goal(*self.place, self.facing))
+        into = shown[: min(LONGEST, shown.frames)]
+        self._add("transition", name, self.models.transition(self.tail, into), into)
+        if shown.frames > into.frames:
+            self._add("generated", name, shown[into.frames :], None)
+        self._pose, self.moving = shown[-1:], False
+        self.stand_here(name)
+
     def hold(self, seconds: float, name: str, keypoints: Mapping[str, Sequence[float]] | None = None) -> None:
         """Stay in the present pose."""
         if round(seconds * FPS) > 0:
@@ -201,7 +213,7 @@ class Character:
         """(F,) how high the ground is under a part: a walk is above it, a transition leads from level to level."""
         if kind == "walk":
             return self.terrain.under(motion.root[:, [0, 2]], self._level)
-        if kind == "hold":
+        if kind in ("hold", "generated"):
             return np.full(motion.frames, self._level)
         aim = self.terrain.at(place_of(motion), self._level) if level is None else level
         return np.linspace(self._level, aim, motion.frames + 1)[1:]

@@ -14,8 +14,10 @@ import numpy as np
 import numpy.typing as npt
 
 STRIDE, CLOSING = 0.45, 0.42  # metres of a step past the other foot, and of a pair of steps that open and close
+SHORTEST = 0.12  # metres of a step, however slow the pace
 TURN, PAST_TURN = 1.05, 0.35  # radians that a pair turns, and a step past the other foot
-SWING = 11  # frames at 30 fps that a foot is in the air
+FPS = 30.0
+SWING = 11  # frames that a foot is in the air
 PAUSE = 1  # frames between steps with both feet down
 LEAD, SETTLE = 4, 7  # frames before the first step and behind the last
 EVEN = 1e-3  # metres to a side that are none
@@ -41,7 +43,13 @@ class Footfall:
 
 
 def plan_steps(
-    ahead: float, left: float, turn: float, displaced: tuple[bool, bool], first: int | None = None, longer: int = 0
+    ahead: float,
+    left: float,
+    turn: float,
+    displaced: tuple[bool, bool],
+    first: int | None = None,
+    longer: int = 0,
+    pace: float = np.inf,
 ) -> list[Footfall]:
     """The steps that move a body by so much.
 
@@ -52,19 +60,21 @@ def plan_steps(
         displaced: whether the left and the right foot stand elsewhere than they shall stand at the end.
         first: a foot that has to go first, and at once, 0 left, 1 right: the one in the air, or behind in a walk.
         longer: frames that the first step takes longer than others.
+        pace: m/s that steps shall not exceed; they get shorter.
 
     Returns:
         Steps in order of time; none where nothing is displaced. The motion lasts :func:`duration` frames.
     """
-    far = float(np.hypot(ahead, left))
-    past = abs(left) <= NARROW * abs(ahead) and abs(turn) <= PAST_TURN * max(1, ceil(far / STRIDE))
+    far, step_s = float(np.hypot(ahead, left)), (SWING + PAUSE) / FPS
+    stride, closing = (min(most, max(SHORTEST, pace * s)) for most, s in ((STRIDE, step_s), (CLOSING, 2 * step_s)))
+    past = abs(left) <= NARROW * abs(ahead) and abs(turn) <= PAST_TURN * max(1, ceil(far / stride))
     lead = LEAD if first is None else 1
     first = _first(left, turn, displaced) if first is None else first
-    if past and far > STRIDE / 4:
-        count = ceil(far / STRIDE)
+    if past and far > stride / 4:
+        count = ceil(far / stride)
         shares = [min(1.0, (k + 1) / count) for k in range(count + 1)]
     else:
-        pairs = max(1, ceil(far / CLOSING), ceil(abs(turn) / TURN))
+        pairs = max(1, ceil(far / closing), ceil(abs(turn) / TURN))
         shares = [(k // 2 + 1) / pairs for k in range(2 * pairs)]
     feet = [(first + k) % 2 for k in range(len(shares))]
     kept = [(foot, share) for foot, share in zip(feet, shares, strict=True) if displaced[foot] or far + abs(turn) > 0.1]

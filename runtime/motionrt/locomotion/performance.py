@@ -23,7 +23,7 @@ class Segment:
     """A part of a performance.
 
     Attributes:
-        kind: ``walk``, ``transition`` or ``hold``.
+        kind: ``walk``, ``transition``, ``hold`` or ``generated``.
         name: the action that it belongs to.
         start, end: frames, ``end`` exclusive.
         keypoints: of a pose that is held, where joints should be, metres.

@@ -6,16 +6,17 @@ stride, so that WalkNet can go on from there.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from motionrt.errors import InvalidInputError, MotionRTError
-from motionrt.locomotion.actions import Act, Action, Do, Follow, Stand, Wait, WalkTo
+from motionrt.locomotion.actions import Act, Action, Do, Follow, Generate, Stand, Wait, WalkTo
 from motionrt.locomotion.bearings import apart, facing_of, heading_along, place_of
 from motionrt.locomotion.character import NEAR, Character, Planner
 from motionrt.locomotion.character_models import CharacterModels
+from motionrt.locomotion.crowd import FPS
 from motionrt.locomotion.goal_frame import Goal
 from motionrt.locomotion.path import Path
 from motionrt.locomotion.path_following import Pace, Progress
@@ -42,6 +43,7 @@ class Performer:
         pace: how it walks.
         seed: of the small movements of held poses.
         progress: told how many per cent of the actions are done.
+        generate: makes motions from texts: (text, seconds, seed) -> Motion.
     """
 
     def __init__(
@@ -54,10 +56,11 @@ class Performer:
         pace: Pace | None = None,
         seed: int = 0,
         progress: Progress | None = None,
+        generate: Callable[[str, float, int], Motion] | None = None,
     ) -> None:
         level = 0.0 if cloud is None else cloud.floor
         self.character = Character(models, start, scene, pace or Pace(), seed, level)
-        self.cloud, self._progress = cloud, progress
+        self.cloud, self._progress, self._generate, self._seed = cloud, progress, generate, seed
 
     def perform(self, actions: Sequence[Action], *, stop: bool = True, foot_lock: bool = True) -> Performance:
         """Do everything, one after the other.
@@ -76,7 +79,9 @@ class Performer:
         check_flags(stop=stop, foot_lock=foot_lock)
         actions = listed(actions, "actions", "actions")
         for action in actions:
-            check_kind(action, WalkTo | Follow | Act | Do | Stand | Wait, "each of actions", "a WalkTo, Act, Do ...")
+            check_kind(
+                action, WalkTo | Follow | Act | Do | Generate | Stand | Wait, "each of actions", "a WalkTo, Act, Do ..."
+            )
         if not actions:
             raise InvalidInputError("give at least one action")
         for index, action in enumerate(actions):
@@ -97,6 +102,8 @@ class Performer:
             if self.character.moving:
                 self.character.stand_here(action.name)
             self.character.hold(action.seconds, action.name)
+        elif isinstance(action, Generate):
+            self.character.show(self._made(action), action.name)
         elif isinstance(action, Stand):
             self.character.stand_here(action.name)
             self.character.hold(action.hold_s, action.name)
@@ -135,6 +142,12 @@ class Performer:
         character.turn(facing, action.name, gate if apart(gate, character.place) < NEAR else None)
         character.into(pose, action.name, level)
         character.hold(action.hold_s, action.name, action.keypoints)
+
+    def _made(self, action: Generate) -> Motion:
+        """The motion of a text, at 30 fps."""
+        if self._generate is None:
+            raise InvalidInputError(f"'{action.text}' needs a generator: perform it with motionrt.Runtime")
+        return self._generate(action.text, action.seconds, self._seed).resample(FPS)
 
     def _meant(self, action: Do) -> Act:
         """What an instruction means here."""

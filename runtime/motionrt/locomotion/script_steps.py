@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from motionrt.limits import how_to_raise, limits
-from motionrt.locomotion.actions import HOLD_S, Act, Action, Do, Follow, Stand, Wait, WalkTo
+from motionrt.locomotion.actions import HOLD_S, Act, Action, Do, Follow, Generate, Stand, Wait, WalkTo
 from motionrt.locomotion.path import Path
 from motionrt.locomotion.script_nodes import Node, unknown
 from motionrt.locomotion.script_scene import file_beside
@@ -82,6 +82,10 @@ def _do(node: Node) -> Action:
     example = "do: sit on the sofa"
     if not isinstance(node.value, dict):
         return Do(node.text(example))
+    if "generate" in node.value:
+        made = node.fields(("generate", "seconds"), required=("generate",))
+        seconds = made["seconds"].seconds() if "seconds" in made else 3.0
+        return Generate(made["generate"].text("generate: wave with the right hand"), seconds)
     found = node.fields(("text", "hold"), required=("text",))
     return Do(found["text"].text(example), _hold(found))
 

@@ -64,12 +64,13 @@ class Steps:
     landings: tuple[int, ...]
 
 
-def step_to(seed: Motion, target: Motion) -> Steps:
+def step_to(seed: Motion, target: Motion, pace: float = np.inf) -> Steps:
     """Step from the last frame of ``seed`` to the pose ``target``.
 
     Args:
         seed: what came before, at 30 fps; its last speed dies away within the first steps.
         target: one frame, standing upright on the same ground.
+        pace: m/s that is not exceeded; steps are as long as is comfortable by default.
 
     Returns:
         The motion; its last frame is ``target``, and feet that stand do not move.
@@ -80,7 +81,7 @@ def step_to(seed: Motion, target: Motion) -> Steps:
     now, target = at_30_fps(seed)[-1:], at_30_fps(target)[-1:]
     start, end = _Stand.of(now), _Stand.of(target)
     speed = _speed_of(seed)
-    steps = _planned(start, end, speed)
+    steps = _planned(start, end, speed, pace)
     frames = duration(steps)
     placed = shares(steps, frames)
     body = _smoothed(placed.mean(axis=1))
@@ -125,7 +126,7 @@ class _Stand:
         return cls(root, float(heading(pose)[0]), ankles, turns)
 
 
-def _planned(start: _Stand, end: _Stand, speed: Values) -> list[Footfall]:
+def _planned(start: _Stand, end: _Stand, speed: Values, pace: float) -> list[Footfall]:
     turn = float(wrapped(end.yaw - start.yaw))
     way = end.root - start.root
     facing = start.yaw + turn / 2
@@ -140,12 +141,12 @@ def _planned(start: _Stand, end: _Stand, speed: Values) -> list[Footfall]:
         behind = int((start.ankles @ speed).argmin())
         first, displaced[behind] = (behind if first is None else first), True
     told = float(ahead), float(left), turn, (bool(displaced[0]), bool(displaced[1])), first
-    steps = plan_steps(*told)
+    steps = plan_steps(*told, pace=pace)
     if not steps:
         return steps
     aim = _placed(start, end, steps[0].share)[0][steps[0].foot]
     far = float(np.linalg.norm(aim - start.ankles[steps[0].foot]))
-    return plan_steps(*told, longer=round(float(np.clip((far - FAR) * LONGER, 0, MOST_LONGER))))
+    return plan_steps(*told, longer=round(float(np.clip((far - FAR) * LONGER, 0, MOST_LONGER))), pace=pace)
 
 
 def _placed(start: _Stand, end: _Stand, share: float) -> tuple[Values, Values]:

@@ -33,7 +33,7 @@ from motionrt.motion.rotations import wrapped
 from motionrt.untrusted.arguments import check_flags, checked_whole
 
 STEPPED = 2.2  # metres that are stepped, in any direction, instead of walked
-ON = 1.8  # metres that are stepped on sideways or back while a stick says so
+ON = 6.0  # metres that are stepped on sideways or back while a stick says so
 STOPS = 0.35  # seconds of its speed that a walk goes on until it stands
 LOOKS = 0.9  # radians between facing and way: more is turned to by steps before a walk
 CLOSE, CLOSE_TURN = 0.02, 0.06  # metres and radians: somebody who stands this near to a goal stays
@@ -147,7 +147,8 @@ class Stroller:
             return self._step(seen, Goal(*place, looks)) if turns or self._walks else self._pause(seen)
         if stick.facing is not None and abs(wrapped(way - looks)) > ASIDE:
             x, z = place_of(seen)
-            return self._step(seen, Goal(x + ON * velocity[0] / wanted, z + ON * velocity[1] / wanted, looks))
+            goal = Goal(x + ON * velocity[0] / wanted, z + ON * velocity[1] / wanted, looks)
+            return self._step(seen, goal, wanted)
         return self._set_off(seen, way)
 
     def _set_off(self, seen: Motion, way: float) -> Frames:
@@ -157,9 +158,9 @@ class Stroller:
         self._walks = True
         return _rows(set_off(seen, self.models.standing, way))
 
-    def _step(self, seen: Motion, goal: Goal) -> Frames:
+    def _step(self, seen: Motion, goal: Goal, pace: float = np.inf) -> Frames:
         self._walks = False
-        steps = step_to(seen, uncanonicalise(self.models.standing, goal))
+        steps = step_to(seen, uncanonicalise(self.models.standing, goal), pace)
         self._breaks = [steps.motion.frames - landing for landing in steps.landings]
         return _rows(steps.motion)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING
@@ -217,7 +217,7 @@ class Locomotion(Service):
 
         Args:
             scene: a scene or its file; None for open ground.
-            actions: values of :mod:`motionrt.locomotion.actions`: WalkTo, Follow, Act, Do, Stand, Wait.
+            actions: values of :mod:`motionrt.locomotion.actions`: WalkTo, Follow, Act, Do, Generate, Stand, Wait.
             cloud: a semantic point cloud or its file, for ``Do("sit on the sofa")``.
             start: where to begin, standing, or a motion to go on from; as for :meth:`walk`.
             speed: metres per second.
@@ -243,8 +243,15 @@ class Locomotion(Service):
             pace=Pace(speed=speed),
             seed=0 if seed is None else checked_whole(seed, "seed", 0),
             progress=progress,
+            generate=self._text_to_motion,
         )
         return performer.perform(actions, stop=stop, foot_lock=foot_lock)
+
+    @property
+    def _text_to_motion(self) -> Callable[[str, float, int], Motion] | None:
+        """(text, seconds, seed) -> motion, where this object generates, too."""
+        made = getattr(self, "generate", None)
+        return None if made is None else lambda text, seconds, seed: made(text, seconds, seed=seed)
 
     def play(self, script: Script | str | FilePath, *, progress: Progress | None = None) -> Performance:
         """Perform a script, or its file (docs/scripts.md); errors as for :meth:`perform`, and ScriptError."""

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from pathlib import Path as FilePath
 from typing import Any
 
-from motionrt.locomotion import Act, Action, Do, Follow, Goal, Stand, WalkTo
+from motionrt.locomotion import Act, Action, Do, Follow, Generate, Goal, Stand, WalkTo
 from motionrt.locomotion.script_scene import SceneSpec
 
 HEAD = "# Made in the motionrt studio. Play it with: motionrt perform FILE -o motion.bvh\n"
@@ -55,11 +55,17 @@ def _step(action: Action) -> dict[str, Any]:
         return {"walk": {"path": [_numbers(point) for point in action.path.points], **_heading(action.heading)}}
     if isinstance(action, Act):
         return {"act": _act(action)}
-    if isinstance(action, Do):
-        return {"do": {"text": action.text, "hold": float(action.hold_s)}}
+    if isinstance(action, Do | Generate):
+        return {"do": _told(action)}
     if isinstance(action, Stand):
         return {"stand": float(action.hold_s)}
     return {"wait": float(action.seconds)}
+
+
+def _told(action: Do | Generate) -> dict[str, Any]:
+    if isinstance(action, Do):
+        return {"text": action.text, "hold": float(action.hold_s)}
+    return {"generate": action.text, "seconds": float(action.seconds)}
 
 
 def _act(action: Act) -> dict[str, Any]:

@@ -14,6 +14,7 @@ from motionrt.locomotion import (
     Act,
     Do,
     Follow,
+    Generate,
     Goal,
     Pace,
     Path,
@@ -28,6 +29,7 @@ from motionrt.locomotion.actions import Action
 from motionrt.locomotion.bearings import facing_of
 from motionrt.locomotion.performing import Performer
 from motionrt.locomotion.starting_poses import stride_of
+from motionrt.motion import Motion
 
 SIT = Act({"pelvis": (0.0, 0.55, 11.0)}, heading=np.pi, approach=(0.0, 10.6), name="sit")
 HIGH = Act({"right_hand": (4.0, 1.2, 3.0)}, heading=0.0, name="grab high", hold_s=1.0)
@@ -246,3 +248,28 @@ def test_a_faster_walk_needs_a_longer_way_to_stop() -> None:
         walk = next(segment for segment in done.segments if segment.kind == "walk")
         ends.append(10 - done.motion.root[walk.end - 1, 2])
     assert ends[1] == pytest.approx(2 * ends[0], rel=0.1)
+
+
+def test_a_motion_of_a_text_begins_where_the_character_stands_and_ends_in_a_stand() -> None:
+    asked = []
+
+    def wave(text: str, seconds: float, seed: int) -> Motion:
+        asked.append((text, seconds, seed))
+        return walking(60, 20.0, speed=0.1)
+
+    performer = Performer(FakeCharacterModels(), Goal(0, 0), seed=7, generate=wave)
+    done = performer.perform([WalkTo(0, 5), Generate("wave", 3.0)], foot_lock=False)
+    assert asked == [("wave", 3.0, 7)]
+    assert kinds(done)[-3:] == ["transition", "generated", "transition"]
+    shown = done.segments[-2]
+    np.testing.assert_allclose(done.motion.root[shown.start, [0, 2]], [0, 5], atol=0.3)
+    steps = np.linalg.norm(np.diff(done.motion.root, axis=0), axis=1)
+    assert steps.max() < 0.1
+    np.testing.assert_allclose(
+        done.motion.rotations[-1, 1:], FakeCharacterModels().standing.rotations[0, 1:], atol=1e-5
+    )
+
+
+def test_without_a_generator_a_text_names_what_is_missing() -> None:
+    with pytest.raises(InvalidInputError, match="needs a generator"):
+        perform([Generate("wave", 3.0)])

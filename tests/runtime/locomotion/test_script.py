@@ -13,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from motionrt.errors import ScriptError
-from motionrt.locomotion import Act, Do, Follow, Goal, Script, Stand, Wait, WalkTo
+from motionrt.locomotion import Act, Do, Follow, Generate, Goal, Script, Stand, Wait, WalkTo
 from motionrt.locomotion.script_scene import SceneSpec
 from motionrt.motion import SMPL24
 
@@ -242,3 +242,9 @@ def test_the_example_of_the_manual_is_a_script(folder: FilePath) -> None:
     assert len(script.steps) > 5
     assert script.scene is not None
     script.scene.open()
+
+
+def test_a_motion_of_a_text_is_a_step(tmp_path: FilePath) -> None:
+    file = tmp_path / "wave.yaml"
+    file.write_text("steps:\n  - do: {generate: wave, seconds: 2}\n  - do: {generate: bow}\n", encoding="utf-8")
+    assert Script.read(file).steps == (Generate("wave", 2.0), Generate("bow", 3.0))

@@ -183,3 +183,31 @@ def test_an_unknown_object_is_refused_with_the_labels_there_are() -> None:
 def test_a_place_that_is_none_is_refused(near: tuple[float, ...]) -> None:
     with pytest.raises(InvalidInputError, match="near must be"):
         action_keypoints("sit on the sofa", room({"sofa": sofa()}), near)
+
+
+DOOR: list[Box] = [((-0.45, 0, -0.04), (0.45, 2.0, 0.0))]
+TABLE: list[Box] = [((-0.6, 0.74, -0.4), (0.6, 0.78, 0.4))]
+
+
+def test_a_door_is_opened_where_its_handle_is_unless_a_height_is_told() -> None:
+    cloud = room({"door": DOOR})
+    for text, height in (("open the door", 1.0), ("open the door at 1.3 m", 1.3), ("close the door", 1.0)):
+        hand = action_keypoints(text, cloud, near=(0, 2)).keypoints["right_hand"]
+        assert hand[1] == pytest.approx(height, abs=0.01)
+        assert hand[2] == pytest.approx(0.0, abs=0.03)
+
+
+def test_who_leans_has_both_hands_on_the_surface_and_the_feet_farther_away_than_for_a_grip() -> None:
+    cloud = room({"table": TABLE})
+    lean, touch = (action_keypoints(f"{verb} the table", cloud, near=(0, 2)) for verb in ("lean on", "touch"))
+    for hand in ("left_hand", "right_hand"):
+        assert lean.keypoints[hand][1] == pytest.approx(0.76, abs=0.03)
+    assert lean.keypoints["left_hand"][0] < lean.keypoints["right_hand"][0]  # who faces -Z has the left at -X
+    assert lean.keypoints["left_foot"][2] > touch.keypoints["left_foot"][2] + 0.05
+
+
+def test_who_looks_at_something_stays_and_faces_it() -> None:
+    look = action_keypoints("look at the door", room({"door": DOOR}), near=(2.0, 2.0))
+    assert look.heading == pytest.approx(np.arctan2(-2.0, -2.0), abs=0.02)
+    assert look.keypoints["pelvis"][[0, 2]] == pytest.approx([2.0, 2.0], abs=0.01)
+    assert look.approach == pytest.approx([2.0, 2.0], abs=0.01)
