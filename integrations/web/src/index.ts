@@ -1,0 +1,14 @@
+export { compose, type Layer } from "./composing";
+export { InvalidInputError, LoadError, MotionRTError } from "./errors";
+export { toBVH, toGLB, toJSON } from "./files";
+export { Gallery, type Hit } from "./gallery";
+export { type Line, type Sampling } from "./generation";
+export { Motion, poseBetween } from "./motion";
+export { Random } from "./random";
+export { type Described, MotionRT, type Options } from "./runtime";
+export { fetched, type Progress, type Source } from "./sessions";
+export { NAMES, OFFSETS, PARENTS, PART_JOINTS, PARTS } from "./skeleton";
+export { Stroller } from "./stroller";
+export { Tokenizer } from "./tokenizer";
+export { Crowd, type Frame, type Goal, standingAt, strideAt } from "./walking";
+export { parseQuery, slotsOf, targetsOf } from "./words";
