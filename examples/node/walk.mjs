@@ -1,32 +1,27 @@
-// node walk.mjs --to 1.5,4 [--heading 0] [--speed 1.2] [--frames 300] [-o walk.bvh] [--json]
-import { readFile, writeFile } from "node:fs/promises";
-import { join } from "node:path";
-import { parseArgs } from "node:util";
-import { bvh } from "./lib/bvh.mjs";
-import { Walker } from "./lib/walker.mjs";
+// A walk to a place as BVH or GLB: node walk.mjs --to 1.5,4 -o walk.bvh
+import { writeFile } from "node:fs/promises";
+import { InvalidInputError, Motion, toBVH, toGLB } from "motionrt-web";
+import { command, number, open } from "./command.mjs";
 
 const NEAR = 0.3; // metres from the goal at which the walk ends
-const { values } = parseArgs({
-  options: {
-    to: { type: "string", default: "1.5,4" },
-    heading: { type: "string", default: "0" },
-    speed: { type: "string", default: "1.2" },
-    frames: { type: "string", default: "300" },
-    models: { type: "string", default: join(import.meta.dirname, "..", "..", "models") },
-    out: { type: "string", short: "o", default: "walk.bvh" },
-    json: { type: "boolean", default: false },
-  },
+const options = {
+  to: { type: "string", default: "1.5,4", help: "X,Z in metres" },
+  heading: { type: "string", default: "0", help: "to arrive with, radians from +Z towards +X" },
+  speed: { type: "string", default: "1.2", help: "m/s" },
+  frames: { type: "string", default: "300", help: "at most so many, 30 a second" },
+  out: { type: "string", short: "o", default: "walk.bvh", help: "file to write, .bvh or .glb" },
+};
+await command("walk.mjs [options]", options, async ({ values }) => {
+  const [x, z, ...rest] = values.to.split(",").map((part) => number(part, "to"));
+  if (z === undefined || rest.length) throw new InvalidInputError("--to takes X,Z, as in 1.5,4");
+  const goal = { x, z, heading: number(values.heading, "heading") };
+  const crowd = await (await open(values.site)).crowd([{ x: 0, z: 0, heading: 0 }]);
+  const frames = [];
+  const away = () => Math.hypot(crowd.place(0)[0] - x, crowd.place(0)[1] - z);
+  while (frames.length < number(values.frames, "frames") && away() > NEAR)
+    frames.push((await crowd.step([goal], number(values.speed, "speed")))[0]);
+  if (values.json) return console.log(JSON.stringify({ frames: frames.map((frame) => [...frame]) }));
+  const motion = Motion.fromFrames(frames);
+  await writeFile(values.out, values.out.endsWith(".glb") ? toGLB(motion) : toBVH(motion));
+  console.log(`${values.out}: ${motion.seconds.toFixed(1)} s, ${away().toFixed(2)} m from the goal`);
 });
-const { skeleton, stride } = JSON.parse(await readFile(join(import.meta.dirname, "start.json"), "utf8"));
-const walker = await Walker.open(join(values.models, "walknet.int8.onnx"), stride);
-const [x, z] = values.to.split(",").map(Number);
-const goal = { x, z, heading: Number(values.heading) };
-const frames = [];
-const away = () => Math.hypot(walker.place[0] - x, walker.place[1] - z);
-while (frames.length < Number(values.frames) && away() > NEAR) frames.push(await walker.step(goal, Number(values.speed)));
-
-if (values.json) console.log(JSON.stringify({ frames: frames.map((frame) => [...frame]) }));
-else {
-  await writeFile(values.out, bvh(skeleton, frames));
-  console.log(`${values.out}: ${(frames.length / 30).toFixed(1)} s, ${away().toFixed(2)} m from the goal`);
-}

@@ -7,12 +7,14 @@
     python -m motionrt_export time
     python -m motionrt_export assets
     python -m motionrt_export portable -o build/portable
+    python -m motionrt_export vectors -o build/vectors
 
 The first command rebuilds the ONNX files and the manifest, and proves every file against torch in a process of its
 own, and what the files make together; whatever is beyond its tolerance ends it with exit code 1. With `--only` files
 and entries of the other models stay as they are. `validate` proves what is there and writes nothing. `time` measures
 one call of every file beside torch, for the next export. `assets` makes the package data that depends on the models:
-the embeddings of the starter gallery and of the captions. `portable` writes files of standard operators for engines.
+the embeddings of the starter gallery and of the captions. `portable` writes files of standard operators for engines,
+`vectors` what ports to other languages check themselves with.
 """
 
 from __future__ import annotations
@@ -83,6 +85,10 @@ def parser() -> argparse.ArgumentParser:
     engines.add_argument("-o", "--out", type=Path, default=Path("build/portable"), help="(default: %(default)s)")
     engines.add_argument("--only", nargs="+", metavar="MODEL", help="only these models")
     engines.set_defaults(run=_portable)
+    checks = commands.add_parser("vectors", help="test vectors for ports to other languages")
+    checks.add_argument("--portable", type=Path, default=Path("build/portable"), help="(default: %(default)s)")
+    checks.add_argument("-o", "--out", type=Path, default=Path("build/vectors"), help="(default: %(default)s)")
+    checks.set_defaults(run=_vectors)
     return result
 
 
@@ -146,6 +152,13 @@ def _portable(args: argparse.Namespace) -> int:
     torch.set_num_threads(1)
     index = portable.build(Sources(args.checkpoints), args.out, print, args.only)
     print(f"{index}\n{portable.table(index)}")
+    return 0
+
+
+def _vectors(args: argparse.Namespace) -> int:
+    from motionrt_export.vectors import write_vectors
+
+    print(write_vectors(args.out, args.portable))
     return 0
 
 

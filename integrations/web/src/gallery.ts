@@ -1,6 +1,9 @@
-// A gallery as `motionrt gallery build` writes it: gallery.json names the clips and the files beside it.
+// A gallery as `motionrt web export` writes it: clips, the spans that were embedded, their vectors, and motions.
 import { InvalidInputError, LoadError } from "./errors";
-import { readFloats, readRecords } from "./npy";
+import { Motion } from "./motion";
+import { readFloats } from "./npy";
+import { matrixOf } from "./rotations";
+import { JOINTS } from "./skeleton";
 import type { Source } from "./sessions";
 
 export interface Hit {
@@ -13,29 +16,36 @@ export interface Hit {
 
 interface Clip {
   id: string;
-  text?: string;
+  text: string;
+  seconds: number;
 }
 
+/** Clip, start and end in seconds. */
+type Window = [number, number, number];
+
 export class Gallery {
-  private constructor(readonly clips: Clip[], private readonly width: number, private readonly embeddings: Float32Array, private readonly windows: Record<string, number>[]) {}
+  private constructor(
+    readonly clips: readonly Clip[],
+    private readonly windows: readonly Window[],
+    private readonly width: number,
+    private readonly embeddings: Float32Array,
+    private readonly read: ((file: string) => Promise<Uint8Array>) | null,
+  ) {}
 
   /** Read the gallery in `folder` of a source; LoadError where it is none. */
   static async open(source: Source, folder: string): Promise<Gallery> {
     const head = JSON.parse(new TextDecoder().decode(await source(`${folder}/gallery.json`)));
-    if (head.format !== "motionrt-gallery" || head.version !== 1)
-      throw new LoadError(`${folder} is no gallery of version 1; export it with: motionrt gallery export`);
-    const file = (name: string): string => `${folder}/${head.files[name]}`;
-    const { shape, data } = readFloats(await source(file("embeddings")), file("embeddings"));
-    const windows = readRecords(await source(file("windows")), file("windows"));
-    if (shape[0] !== windows.length) throw new LoadError(`${folder}: ${shape[0]} embeddings of ${windows.length} windows`);
-    return new Gallery(head.clips, shape[1], data, windows);
+    if (head.version !== 1) throw new LoadError(`${folder} is no gallery of version 1; write it with: motionrt web export`);
+    const { shape, data } = readFloats(await source(`${folder}/embeddings.npy`), "embeddings.npy");
+    if (shape[0] !== head.windows.length) throw new LoadError(`${folder}: ${shape[0]} embeddings of ${head.windows.length} windows`);
+    return new Gallery(head.clips, head.windows, shape[1], data, head.motions ? (file) => source(`${folder}/clips/${file}`) : null);
   }
 
   /** The `k` clips whose best window is nearest to a unit vector, best first. */
   search(query: Float32Array, k = 10): Hit[] {
     if (query.length !== this.width) throw new InvalidInputError(`the gallery's vectors have ${this.width} numbers, not ${query.length}`);
     const best = new Map<number, { score: number; row: number }>();
-    this.windows.forEach(({ clip }, row) => {
+    this.windows.forEach(([clip], row) => {
       const score = this.score(row, query);
       if (!((best.get(clip)?.score ?? -Infinity) >= score)) best.set(clip, { score, row });
     });
@@ -43,9 +53,23 @@ export class Gallery {
       .sort(([a, x], [b, y]) => y.score - x.score || a - b)
       .slice(0, k)
       .map(([clip, { score, row }]) => {
-        const { id, text } = this.clips[clip];
-        return { score, id, text: text ?? "", start_s: this.windows[row].start_s, end_s: this.windows[row].end_s };
+        const [, start_s, end_s] = this.windows[row];
+        return { score, id: this.clips[clip].id, text: this.clips[clip].text, start_s, end_s };
       });
+  }
+
+  /** The motion of a clip, 30 fps; InvalidInputError where the gallery carries none. */
+  async motion(id: string): Promise<Motion> {
+    const number = this.clips.findIndex((clip) => clip.id === id);
+    if (number < 0 || !this.read) throw new InvalidInputError(number < 0 ? `no clip ${id} in the gallery` : "the gallery carries no motions");
+    const { shape, data } = readFloats(await this.read(`${number}.npy`), `${number}.npy`);
+    const [rotations, root] = [new Float32Array(shape[0] * JOINTS * 9), new Float32Array(shape[0] * 3)];
+    for (let f = 0; f < shape[0]; f++) {
+      const row = data.subarray(f * shape[1], (f + 1) * shape[1]);
+      root.set(row.subarray(0, 3), 3 * f);
+      for (let j = 0; j < JOINTS; j++) rotations.set(matrixOf(Array.from(row.subarray(3 + 4 * j, 7 + 4 * j))), (f * JOINTS + j) * 9);
+    }
+    return new Motion(rotations, root);
   }
 
   private score(row: number, query: Float32Array): number {

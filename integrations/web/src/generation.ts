@@ -6,14 +6,17 @@ import { lockFeet } from "./feet";
 import { Motion } from "./motion";
 import { fromPositions } from "./positions";
 import { Random } from "./random";
-import { flags, float, numbers, type Sessions, whole } from "./sessions";
+import { numbers, type Sessions } from "./sessions";
 import { JOINTS, PARTS } from "./skeleton";
 import type { TextEncoder, TokenFeatures } from "./text";
+import { brought, type Way, wayOf } from "./ways";
 import { parseQuery, slotsOf, targetsOf } from "./words";
 
 const READ = 24; // tokens of a text that the network has learnt to read
 const [HIGHEST, LOWEST, BEND] = [60, 0.15, 7]; // noise levels (Karras et al. 2022, eq. 5)
 const [POSE_GUIDANCE, TURN_GUIDANCE] = [5, 1.3];
+const [LATE, GUIDED] = [2.5, 2]; // noise levels below which the way is corrected, and down to which texts are guided
+const ROOT = 4; // columns of the root, which the part "global" holds
 const [NETWORK, OVERLAP] = [200, 5]; // frames at 20 fps: that the network sees, over which texts pass into each other
 
 export interface Sampling {
@@ -29,6 +32,8 @@ export interface Sampling {
   footLock?: boolean;
   /** Standard normal numbers (frames at 20 fps x 77) instead of those of the seed. */
   noise?: Float32Array;
+  /** Token features of the only text, where another encoder has made them. */
+  features?: TokenFeatures;
   /** Called after every step with the share that is done. */
   onStep?: (share: number) => void;
 }
@@ -40,7 +45,7 @@ export interface Line {
 }
 
 interface Piece {
-  words: { features: TokenFeatures; slots: number[]; numbers: Float32Array; known: boolean[] };
+  words: { features: TokenFeatures; slots: number[]; numbers: Float32Array; known: boolean[]; way: Way | null };
   first: number;
   weight: Float32Array; // of its frames
 }
@@ -62,14 +67,14 @@ export class Generator {
     if (!lines.length) throw new InvalidInputError("a timeline needs at least one text");
     if (!single) for (const line of lines) checkedNumber(line.seconds, "seconds of a line", 0.5, 9.5);
     const seconds = lines.reduce((sum, line) => sum + line.seconds, 0);
-    const { pieces, frames } = await this.pieces(lines);
+    const { pieces, frames } = await this.pieces(lines, sampling.features);
     const rows = await this.draw(pieces, frames, sampling);
     const motion = asMotion(rows);
     const finished = motion.slice(0, Math.min(motion.frames, Math.round(30 * seconds))).canonical().grounded();
     return sampling.footLock ?? true ? lockFeet(finished) : finished;
   }
 
-  private async pieces(lines: Line[]): Promise<{ pieces: Piece[]; frames: number }> {
+  private async pieces(lines: Line[], given?: TokenFeatures): Promise<{ pieces: Piece[]; frames: number }> {
     const ends = lines.map((_, i) => lines.slice(0, i + 1).reduce((sum, line) => sum + line.seconds, 0));
     const all = Math.round(ends[ends.length - 1] * FPS) + 1;
     const frames = lines.length === 1 ? Math.min(all, NETWORK) : all;
@@ -80,9 +85,9 @@ export class Generator {
     const pieces: Piece[] = [];
     for (const [i, line] of lines.entries()) {
       const said = parseQuery(line.text);
-      const { tokens, features } = await this.text.features(line.text);
+      const { tokens, features } = given ?? (await this.text.features(line.text));
       const read = Math.min(tokens, READ);
-      const words = { features: { tokens: read, features: features.slice(0, read * 384) }, slots: slotsOf(said), ...targetsOf(said, line.seconds) };
+      const words = { features: { tokens: read, features: features.slice(0, read * 384) }, slots: slotsOf(said), ...targetsOf(said, line.seconds), way: wayOf(said, line.seconds) };
       pieces.push({ words, first: spans[i][0], weight: weights[i].map((value, f) => value / total[spans[i][0] + f]) });
     }
     return { pieces, frames };
@@ -99,10 +104,12 @@ export class Generator {
     const levels = noiseLevels(steps);
     let state: Float32Array = noise.map((value) => Math.fround(value * temperature) * levels[0]);
     let before: Float32Array | null = null;
+    let held = nothing(frames);
     for (let k = 0; k < steps; k++) {
-      const { clean, raw } = await this.estimate(pieces, frames, state, levels[k], guidance);
+      const { clean, raw } = await this.estimate(pieces, held, state, levels[k], levels[k] >= GUIDED ? guidance : PLAIN);
+      if (levels[k] < LATE) held = steered(raw, pieces);
       sampling.onStep?.((k + 1) / steps);
-      if (k === steps - 1) return smoothed(raw);
+      if (k === steps - 1) return kept(smoothed(raw), pieces);
       const step = Math.log(levels[k] / levels[k + 1]);
       const share: number = before ? step / (2 * Math.log(levels[k - 1] / levels[k])) : 0;
       const ratio = levels[k + 1] / levels[k];
@@ -114,7 +121,8 @@ export class Generator {
   }
 
   /** Estimates of the whole canvas, normalised and raw, put together of those of its pieces. */
-  private async estimate(pieces: Piece[], frames: number, state: Float32Array, level: number, guidance: Float32Array): Promise<{ clean: Float32Array; raw: Float32Array }> {
+  private async estimate(pieces: Piece[], held: Held, state: Float32Array, level: number, guidance: Float32Array): Promise<{ clean: Float32Array; raw: Float32Array }> {
+    const frames = held.frames.length;
     const [clean, raw, share] = [new Float32Array(frames * WIDTH), new Float32Array(frames * WIDTH), new Float32Array(frames)];
     for (const { words, first, weight } of pieces) {
       const count = weight.length;
@@ -122,17 +130,17 @@ export class Generator {
       const found = await this.sessions.run(
         "motion_denoiser",
         {
-          noisy: float(state.slice(first * WIDTH, (first + count) * WIDTH), [1, count, WIDTH]),
-          level: float(Float32Array.of(level), [1]),
-          mask: flags(new Uint8Array(count).fill(1), [1, count]),
-          token_features: float(features, [1, tokens, 384]),
-          attention_mask: whole(new Uint8Array(tokens).fill(1), [1, tokens]),
-          slots: whole(words.slots, [1, data.slots.length]),
-          numbers: float(words.numbers, [1, data.targets.length]),
-          known: flags(words.known, [1, data.targets.length]),
-          held: float(new Float32Array(count * WIDTH), [1, count, WIDTH]),
-          holding: flags(new Uint8Array(count * PARTS.length), [1, count, PARTS.length]),
-          guidance: float(guidance, [1, 2]),
+          noisy: this.sessions.float(state.slice(first * WIDTH, (first + count) * WIDTH), [1, count, WIDTH]),
+          level: this.sessions.float(Float32Array.of(level), [1]),
+          mask: this.sessions.flags(new Uint8Array(count).fill(1), [1, count]),
+          token_features: this.sessions.float(features, [1, tokens, 384]),
+          attention_mask: this.sessions.whole(new Uint8Array(tokens).fill(1), [1, tokens]),
+          slots: this.sessions.whole(words.slots, [1, data.slots.length]),
+          numbers: this.sessions.float(words.numbers, [1, data.targets.length]),
+          known: this.sessions.flags(words.known, [1, data.targets.length]),
+          held: this.sessions.float(held.motion.slice(first * WIDTH, (first + count) * WIDTH), [1, count, WIDTH]),
+          holding: this.sessions.flags(holding(held, first, count), [1, count, PARTS.length]),
+          guidance: this.sessions.float(guidance, [1, 2]),
         },
         ["clean", "motion"],
       );
@@ -151,6 +159,47 @@ export class Generator {
     }
     return { clean, raw };
   }
+}
+
+const PLAIN = Float32Array.of(1, 1);
+
+/** Motions whose root is kept in some frames. */
+interface Held {
+  motion: Float32Array;
+  frames: boolean[];
+}
+
+const nothing = (frames: number): Held => ({ motion: new Float32Array(frames * WIDTH), frames: new Array<boolean>(frames).fill(false) });
+
+/** Which parts of the frames of a piece are held: the last, "global", or none. */
+function holding(held: Held, first: number, count: number): Uint8Array {
+  return Uint8Array.from({ length: count * PARTS.length }, (_, i) =>
+    Number(i % PARTS.length === PARTS.length - 1 && held.frames[first + Math.floor(i / PARTS.length)]),
+  );
+}
+
+/** What must be otherwise about a motion so that it goes where the texts of its pieces say. */
+function steered(raw: Float32Array, pieces: Piece[]): Held {
+  const held = nothing(raw.length / WIDTH);
+  for (const { words, first, weight } of pieces) {
+    const own = Array.from(weight.keys()).filter((f) => weight[f] > 0.5);
+    if (!own.length || !words.way) continue;
+    const [from, to] = [first + own[0], first + own[own.length - 1] + 1];
+    const found = brought(raw.slice(from * WIDTH, to * WIDTH), words.way);
+    if (!found) continue;
+    held.motion.set(found, from * WIDTH);
+    held.frames.fill(true, from, to);
+  }
+  return held;
+}
+
+/** The motion with the root that its texts ask for. */
+function kept(raw: Float32Array, pieces: Piece[]): Float32Array {
+  const { motion, frames } = steered(raw, pieces);
+  frames.forEach((holds, f) => {
+    if (holds) raw.set(motion.subarray(f * WIDTH, f * WIDTH + ROOT), f * WIDTH);
+  });
+  return raw;
 }
 
 /** Features at 20 fps to a motion at 30 fps. */

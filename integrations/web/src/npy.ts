@@ -1,4 +1,4 @@
-// NumPy's .npy and .npz, as far as galleries need them: float32 matrices, records of numbers, stored archives.
+// NumPy's .npy, as far as galleries need it: float32 in C order.
 import { LoadError } from "./errors";
 
 interface Header {
@@ -26,23 +26,4 @@ export function readFloats(content: Uint8Array, file: string): { shape: number[]
   if (content.length < end + 4 * count) throw new LoadError(`${file} ends too early`);
   const bytes = content.slice(end, end + 4 * count);
   return { shape, data: new Float32Array(bytes.buffer, bytes.byteOffset, count) };
-}
-
-/** Records of little-endian numbers, one object each. */
-export function readRecords(content: Uint8Array, file: string): Record<string, number>[] {
-  const { text, end } = header(content, file);
-  const fields = [...text.matchAll(/\('(\w+)', '<([if])(\d)'\)/g)].map(([, name, kind, size]) => ({ name, kind, size: Number(size) }));
-  const width = fields.reduce((sum, { size }) => sum + size, 0);
-  if (!width) throw new LoadError(`${file}: expected records, found ${text.trim()}`);
-  const view = new DataView(content.buffer, content.byteOffset);
-  const found: Record<string, number>[] = [];
-  for (let at = end; at + width <= content.length; ) {
-    const record: Record<string, number> = {};
-    for (const { name, kind, size } of fields) {
-      record[name] = kind === "f" ? (size === 4 ? view.getFloat32(at, true) : view.getFloat64(at, true)) : size === 4 ? view.getInt32(at, true) : Number(view.getBigInt64(at, true));
-      at += size;
-    }
-    found.push(record);
-  }
-  return found;
 }

@@ -3,7 +3,7 @@ import { LoadError } from "./errors";
 import { Gallery, type Hit } from "./gallery";
 import { Generator, type Line, type Sampling } from "./generation";
 import type { Motion } from "./motion";
-import { configure, fetched, type Progress, Sessions, type Source } from "./sessions";
+import { configure, type Engine, fetched, type Progress, Sessions, type Source } from "./sessions";
 import { Stroller } from "./stroller";
 import { TextEncoder as TextTower } from "./text";
 import { Tokenizer } from "./tokenizer";
@@ -18,6 +18,8 @@ export interface Options {
   wasm?: string;
   /** Threads of onnxruntime; more than one needs a page that is isolated (COOP and COEP). */
   threads?: number;
+  /** Another onnxruntime than onnxruntime-web, such as `onnxruntime-node`. */
+  engine?: Engine;
   /** What embeds texts for a search: `tmr_text` also serves the generator, `tmr_student` is quicker and loads 9 MB. */
   tower?: "tmr_text" | "tmr_student";
 }
@@ -48,7 +50,7 @@ export class MotionRT {
     if (!described.models) throw new LoadError("models.json names no models; write the folder with: motionrt web export");
     const source = typeof options.from === "function" ? options.from : fetched(options.from, options.onProgress, described.version);
     const files = Object.fromEntries(Object.entries(described.models).map(([name, { file }]) => [name, file]));
-    return new MotionRT(new Sessions(source, files), described, options.tower ?? "tmr_text");
+    return new MotionRT(new Sessions(source, files, options.engine), described, options.tower ?? "tmr_text");
   }
 
   tokenizer(): Promise<Tokenizer> {

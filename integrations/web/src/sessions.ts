@@ -53,12 +53,15 @@ async function read(answer: Response, file: string, onProgress?: (progress: Prog
   return out;
 }
 
-/** Models by name, each opened once. */
+/** An onnxruntime: `onnxruntime-web`, or `onnxruntime-node` where native code may run. */
+export type Engine = Pick<typeof ort, "InferenceSession" | "Tensor">;
+
+/** Models by name, each opened once, and tensors for them. */
 export class Sessions {
   private readonly open = new Map<string, Promise<ort.InferenceSession>>();
 
   /** `files`: name of a model -> its file, as the description of the models says. */
-  constructor(readonly source: Source, private readonly files: Readonly<Record<string, string>>, private readonly options: ort.InferenceSession.SessionOptions = {}) {}
+  constructor(readonly source: Source, private readonly files: Readonly<Record<string, string>>, private readonly engine: Engine = ort) {}
 
   session(model: string): Promise<ort.InferenceSession> {
     let found = this.open.get(model);
@@ -74,23 +77,30 @@ export class Sessions {
     return (await (await this.session(model)).run(feeds, outputs)) as Tensors;
   }
 
+  float(data: Float32Array, shape: number[]): ort.Tensor {
+    return new this.engine.Tensor("float32", data, shape);
+  }
+
+  whole(values: ArrayLike<number>, shape: number[]): ort.Tensor {
+    return new this.engine.Tensor("int64", BigInt64Array.from(Array.from(values), BigInt), shape);
+  }
+
+  flags(values: ArrayLike<boolean | number>, shape: number[]): ort.Tensor {
+    return new this.engine.Tensor("bool", Uint8Array.from(Array.from(values as ArrayLike<number>), Number), shape);
+  }
+
   private async opened(model: string): Promise<ort.InferenceSession> {
     const file = this.files[model];
     if (!file) throw new LoadError(`no file of the model ${model}; there are: ${Object.keys(this.files).join(", ")}`);
     const content = await this.source(file);
     try {
-      return await ort.InferenceSession.create(content, { executionProviders: ["wasm"], ...this.options });
+      return await this.engine.InferenceSession.create(content, this.engine === ort ? { executionProviders: ["wasm"] } : { intraOpNumThreads: 1 });
     } catch (error) {
       throw new LoadError(`${file} does not open: ${error instanceof Error ? error.message : String(error)}`);
     }
   }
 }
 
-export const float = (data: Float32Array, shape: number[]): ort.Tensor => new ort.Tensor("float32", data, shape);
-export const whole = (values: ArrayLike<number>, shape: number[]): ort.Tensor =>
-  new ort.Tensor("int64", BigInt64Array.from(Array.from(values), BigInt), shape);
-export const flags = (values: ArrayLike<boolean | number>, shape: number[]): ort.Tensor =>
-  new ort.Tensor("bool", Uint8Array.from(Array.from(values as ArrayLike<number>), Number), shape);
 export const numbers = (tensor: ort.Tensor): Float32Array => tensor.data as Float32Array;
 
 /** Where onnxruntime's WebAssembly lies, and how many threads it may use. */

@@ -15,7 +15,7 @@ type State = "stands" | "walks" | "acts";
 export class Stroller {
   state: State = "stands";
   private goal: Goal | null = null;
-  private heading: number;
+  private readonly steering: Steering;
   private readonly crowd: Crowd;
   private action: Frame[] = [];
   private from: Frame; // the pose that is faded out of
@@ -25,7 +25,7 @@ export class Stroller {
   constructor(sessions: Sessions, place: Goal, public speed = SPEED) {
     this.crowd = new Crowd(sessions, [strideAt(place)]);
     this.last = this.from = standingAt(place);
-    this.heading = place.heading;
+    this.steering = new Steering(place.heading);
   }
 
   get place(): Goal {
@@ -37,10 +37,9 @@ export class Stroller {
     const here = this.place;
     this.goal = { x, z, heading: Math.atan2(x - here.x, z - here.z) };
     if (this.state === "walks" || this.distance() < THERE) return;
-    this.heading = this.goal.heading;
+    this.steering.heading = here.heading;
     this.crowd.histories = [strideAt({ x: here.x, z: here.z, heading: here.heading })];
     this.fadeTo("walks");
-    this.heading = here.heading;
   }
 
   /** Play a motion here; afterwards it stands. */
@@ -70,7 +69,7 @@ export class Stroller {
       this.fadeTo("stands");
     }
     if (this.state === "walks" && this.goal) {
-      if (this.distance() > THERE) return (await this.crowd.step([this.aim()], this.speed))[0];
+      if (this.distance() > THERE) return (await this.crowd.step([this.steering.aim(...this.crowd.place(0), this.goal)], this.speed))[0];
       this.goal = null;
       this.fadeTo("stands");
     }
@@ -86,16 +85,18 @@ export class Stroller {
   private distance(): number {
     return this.goal ? Math.hypot(this.goal.x - this.last[ROOT], this.goal.z - this.last[ROOT + 2]) : 0;
   }
+}
 
-  /** A point of the way ahead that leads round to the goal; WalkNet follows it. */
-  private aim(): Goal {
-    const [x, z] = this.crowd.place(0);
-    const goal = this.goal!;
+/** Turns a character round to its goal bit by bit; WalkNet is given points of the way that leads there. */
+export class Steering {
+  constructor(public heading: number) {}
+
+  /** What to give WalkNet so that somebody at (x, z) gets to a place. */
+  aim(x: number, z: number, goal: { x: number; z: number }): Goal {
     const wanted = Math.atan2(goal.x - x, goal.z - z);
     this.heading += Math.max(-TURN, Math.min(TURN, wrapped(wanted - this.heading)));
     if (Math.abs(wrapped(wanted - this.heading)) < 0.05) return { x: goal.x, z: goal.z, heading: wanted };
-    const ahead = 1;
-    return { x: x + ahead * Math.sin(this.heading), z: z + ahead * Math.cos(this.heading), heading: this.heading };
+    return { x: x + Math.sin(this.heading), z: z + Math.cos(this.heading), heading: this.heading };
   }
 }
 

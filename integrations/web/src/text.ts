@@ -1,5 +1,5 @@
 import { checkedText } from "./errors";
-import { flags, numbers, type Sessions, whole, type Tensors } from "./sessions";
+import { numbers, type Sessions, type Tensors } from "./sessions";
 import type { Tokenizer } from "./tokenizer";
 
 /** What the sentence encoder says of a text: T x 384, one row a token. */
@@ -29,8 +29,8 @@ export class TextEncoder {
 
   private async run(model: string, text: string, embed: boolean, output: string): Promise<{ out: Tensors[string]; tokens: number }> {
     const ids = await this.tokens(text);
-    const feeds: Tensors = { input_ids: whole(ids, [1, ids.length]), attention_mask: whole(ids.map(() => 1), [1, ids.length]) };
-    if ((await this.sessions.session(model)).inputNames.includes("embed")) feeds.embed = flags([embed], []);
+    const feeds: Tensors = { input_ids: this.sessions.whole(ids, [1, ids.length]), attention_mask: this.sessions.whole(ids.map(() => 1), [1, ids.length]) };
+    if ((await this.sessions.session(model)).inputNames.includes("embed")) feeds.embed = this.sessions.flags([embed], []);
     return { out: (await this.sessions.run(model, feeds, [output]))[output], tokens: ids.length };
   }
 }

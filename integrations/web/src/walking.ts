@@ -2,12 +2,13 @@
 import start from "./data/start.json";
 import { InvalidInputError, MotionRTError } from "./errors";
 import { aboutY, apply, multiply, nearestRotation, type Vec3 } from "./rotations";
-import { float, numbers, type Sessions, type Tensors } from "./sessions";
+import { numbers, type Sessions, type Tensors } from "./sessions";
 import { JOINTS } from "./skeleton";
 
 export const HISTORY = 30;
 export const WIDTH = JOINTS * 9 + 3;
 const ROOT = JOINTS * 9;
+const WISHES = 8; // numbers of a wish beside the goal, which newer files take
 export const SPEED = 1.2; // m/s
 
 /** Where to be, and facing where: metres, and yaw in radians from +Z towards +X. */
@@ -55,7 +56,8 @@ export class Crowd {
     const seen = new Float32Array(count * HISTORY * WIDTH);
     this.histories.forEach((history, i) => history.forEach((frame, f) => seen.set(toGoal(frame, goals[i]), (i * HISTORY + f) * WIDTH)));
     const speed = Float32Array.from({ length: count }, (_, i) => (typeof speeds === "number" ? speeds : speeds[i]));
-    const feeds: Tensors = { frames: float(seen, [count, HISTORY, WIDTH]), speed: float(speed, [count]) };
+    const feeds: Tensors = { frames: this.sessions.float(seen, [count, HISTORY, WIDTH]), speed: this.sessions.float(speed, [count]) };
+    if ((await this.sessions.session("walknet")).inputNames.includes("wish")) feeds.wish = this.sessions.float(new Float32Array(count * WISHES), [count, WISHES]); // none
     const next = numbers((await this.sessions.run("walknet", feeds, ["next"])).next);
     return this.histories.map((history, i) => {
       const frame = fromGoal(onRotations(next.subarray(i * WIDTH, (i + 1) * WIDTH)), goals[i]);

@@ -36,6 +36,7 @@ from motionrt.cli import (
     studio,
     view,
     walk,
+    web,
 )
 from motionrt.cli.console import be_quiet, close_quietly, complain, prepare_streams, say
 from motionrt.cli.parsing import Parser, WrongUsageError, split_places
@@ -76,6 +77,7 @@ _COMMANDS = (
     view,
     studio,
     serve,
+    web,
     models,
     bench,
     completion,

@@ -1,0 +1,76 @@
+"""The test vectors hold for motionrt-web, with motions of the same seed equal to the millimetre in float arithmetic."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from motionrt.web.folder import motion_rows
+
+from .conftest import Ask
+from .test_in_node import as_motion
+
+pytest.importorskip("torch", reason="torch is not installed; the export extra brings it")
+pytest.importorskip("onnx", reason="onnx is not installed; the export extra brings it")
+
+ROOT = Path(__file__).parents[3]
+MODELS = ("tmr_text", "walknet", "motion_denoiser")
+
+
+@pytest.fixture(scope="module")
+def vectors(site: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    from motionrt_export.portable import portable
+    from motionrt_export.sources import Sources
+    from motionrt_export.vectors import write_vectors
+
+    folder = tmp_path_factory.mktemp("portable")
+    for name in MODELS:
+        (folder / f"{name}.portable.onnx").write_bytes(
+            portable(Sources(ROOT / "models").source(name)).SerializeToString()
+        )
+    return write_vectors(tmp_path_factory.mktemp("vectors"), folder)
+
+
+@pytest.fixture(scope="module")
+def float_site(site: Path, vectors: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The same folder with the portable files."""
+    folder = next(path for path in vectors.parents[1].iterdir() if path.name.startswith("portable"))
+    out = tmp_path_factory.mktemp("float")
+    (out / "tokenizer.json").symlink_to(site / "tokenizer.json")
+    models = {name: {"file": f"{name}.portable.onnx"} for name in MODELS}
+    for entry in models.values():
+        (out / entry["file"]).symlink_to(folder / entry["file"])
+    (out / "models.json").write_text(json.dumps({"version": "float", "models": models, "galleries": []}))
+    return out
+
+
+def test_tokens_and_embeddings_are_those_of_the_vectors(ask: Ask, vectors: Path) -> None:
+    told = json.loads(vectors.read_text())
+    wanted = np.load(vectors.parent / "embeddings.npy")
+    found = np.array(ask("embed", texts=[one["text"] for one in told["texts"][: len(wanted)]]))
+    assert (found * wanted).sum(axis=1).min() > 0.98  # quantised beside float
+    assert ask("tokens", texts=[one["text"] for one in told["texts"]]) == [one["ids"] for one in told["texts"]]
+
+
+def test_600_frames_of_a_walk_are_those_of_the_vectors(ask: Ask, vectors: Path, float_site: Path) -> None:
+    told, frames = json.loads(vectors.read_text()), np.load(vectors.parent / "walk_frames.npy")
+    walk = ask("walk", site=float_site, goals=told["walk"]["goals"], frames=len(frames), speed=told["walk"]["speed"])
+    np.testing.assert_allclose(walk, frames, atol=1e-3)
+
+
+def test_a_seed_gives_the_same_motion(ask: Ask, vectors: Path, float_site: Path) -> None:
+    for number, one in enumerate(json.loads(vectors.read_text())["motions"]):
+        asked = {key: one[key] for key in ("text", "seconds", "seed", "steps")}
+        found = as_motion(ask("generate", site=float_site, **asked))
+        np.testing.assert_allclose(motion_rows(found), np.load(vectors.parent / f"motion_{number}_rows.npy"), atol=1e-3)
+
+
+def test_quantised_files_make_nearly_the_same_motion(ask: Ask, vectors: Path) -> None:
+    one = json.loads(vectors.read_text())["motions"][0]
+    asked = {key: one[key] for key in ("text", "seconds", "seed", "steps")}
+    rows = np.load(vectors.parent / "motion_0_rows.npy")
+    found = motion_rows(as_motion(ask("generate", **asked)))
+    assert np.abs(found[:, :3] - rows[:, :3]).mean() < 0.05  # metres
