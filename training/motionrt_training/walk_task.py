@@ -50,6 +50,7 @@ class WalkSettings:
     noise: float = option(1.0, "scale of the noise on the history")
     chain: int = option(4, "most predictions in a row before the one that is trained")
     chunk: int = option(8, "most frames kept of each")
+    linear_beyond: float | None = option(3.0, "deviations beyond which errors count linearly; none for the paper's L2")
     chain_after: int = option(800, "steps before --chain begins")
     feet: float = option(0.02, "weight of the feet's positions and speeds")
     skate: float = option(0.05, "weight of the speed of planted toes")
@@ -146,7 +147,9 @@ class WalkTask:
         target = true[:, 1:] + (local[:, -1:] - true[:, :1]) * self._fading(true)
         made = seen_from(net(history, batch["speed"], wish), turn, place)
         inside = batch["inside"][:, now : now + FRAMES].float() * self._weights(made)
-        error = (soft_square((made - target) / net.change_std).mean(2) * inside).sum() / inside.sum()
+        error = (
+            soft_square((made - target) / net.change_std, self.settings.linear_beyond).mean(2) * inside
+        ).sum() / inside.sum()
         planted = batch["planted"][:, now - 1 : now + FRAMES]
         paired = (planted[:, 1:] & planted[:, :-1]).float()
         footing = self._feet(local[:, -1:], made, target, inside, paired)
@@ -213,9 +216,11 @@ class WalkTask:
         net.change_std.copy_(torch.maximum(change, 0.03 * net.pose_std).clamp(min=0.001))
 
 
-def soft_square(error: Tensor) -> Tensor:
+def soft_square(error: Tensor, linear_beyond: float | None = 3.0) -> Tensor:
     """Squared errors, linear beyond a few standard deviations: (30, 219) of them are rarely all well behaved."""
-    return 2.0 * F.huber_loss(error, torch.zeros_like(error), reduction="none", delta=3.0)
+    if linear_beyond is None:
+        return error.square()
+    return 2.0 * F.huber_loss(error, torch.zeros_like(error), reduction="none", delta=linear_beyond)
 
 
 def robust(error: Tensor) -> Tensor:

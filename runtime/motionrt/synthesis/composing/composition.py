@@ -14,10 +14,9 @@ from motionrt.motion.motion import Motion
 from motionrt.motion.transforms import floor_height
 from motionrt.synthesis.composing.alignment import Align, aligned
 from motionrt.synthesis.composing.blending import mixed_roots, mixed_rotations
-from motionrt.synthesis.composing.grounding import on_their_ground
-from motionrt.synthesis.composing.keeping import keep_lean
 from motionrt.synthesis.composing.layers import Derive, Layer, checked_layers
 from motionrt.synthesis.composing.ownership import SEAM_JOINTS, ownership, softened
+from motionrt.synthesis.composing.posture import keep_lean, on_their_ground
 from motionrt.untrusted.arguments import check_flags
 from motionrt.untrusted.words import shown
 

@@ -17,7 +17,7 @@ from motionrt.motion import SMPL24, Motion
 from motionrt.motion.body_parts import PARTS
 from motionrt.motion.transforms import floor_height
 from motionrt.synthesis.composing import Layer, combination, compose
-from motionrt.synthesis.composing.keeping import lean
+from motionrt.synthesis.composing.posture import lean
 
 WALK, ARMS = ("left leg", "right leg", "global"), ("left arm", "right arm")
 UPPER = ("torso", *ARMS)
