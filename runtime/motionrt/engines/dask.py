@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Iterable, Iterator
 from itertools import islice
 from typing import Any
 
 from motionrt.engines.batches import Batch, Done, index_batch
-from motionrt.errors import EngineError, InvalidInputError, MissingDependencyError
+from motionrt.engines.packages import package
+from motionrt.errors import EngineError, InvalidInputError
 from motionrt.retrieval.records import Skipped
 from motionrt.untrusted.words import shown
 
@@ -34,7 +34,7 @@ def on_dask(address: str, batches: Iterable[Batch]) -> Iterator[tuple[Batch, Don
     """
     if address.partition("://")[0] not in SCHEMES:
         raise InvalidInputError(f"{shown(address)} is no Dask scheduler: they are called dask://host:8786")
-    distributed = _distributed()
+    distributed = package("distributed", "a cluster", "cluster")
     with _client(distributed, address) as client:
         waiting, of = iter(batches), {}
         running = distributed.as_completed(loop=client.loop)
@@ -86,12 +86,3 @@ def _client(distributed: Any, address: str) -> Any:
         client.close()
         raise EngineError(f"the Dask scheduler at {address} has no worker; start one: dask worker {place}") from error
     return client
-
-
-def _distributed() -> Any:
-    try:
-        return importlib.import_module("distributed")
-    except ImportError as error:
-        raise MissingDependencyError(
-            "clusters need the package distributed: pip install 'motionrt[cluster]'"
-        ) from error

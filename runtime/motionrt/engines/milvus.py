@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 import json
 import re
 import threading
@@ -14,9 +13,10 @@ from urllib.parse import urlsplit
 import numpy as np
 
 from motionrt.engines.conditions import Conditions
+from motionrt.engines.packages import package
 from motionrt.engines.rows import Row, rows_of
 from motionrt.engines.store import KnownFile, Nearest
-from motionrt.errors import EngineError, GalleryNotFoundError, InvalidInputError, MissingDependencyError
+from motionrt.errors import EngineError, GalleryNotFoundError, InvalidInputError
 from motionrt.motion.attributes import ATTRIBUTES
 from motionrt.motion.skeleton import FloatArray
 from motionrt.retrieval import Filter, Gallery
@@ -52,7 +52,7 @@ class MilvusStore:
         if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]{0,100}", library):
             raise InvalidInputError(f"a library is named by letters, digits and _, not {shown(library)}")
         self._place, self._library, self._patience_s = _place(address), library, patience_s
-        self._milvus = _milvus()
+        self._milvus = package("pymilvus", "Milvus", "milvus")
         self._lock = threading.Lock()
         self._client: Any = None
         self._model = self._run(lambda client: self._prepared(client, model))
@@ -262,10 +262,3 @@ def _nearest(rows: list[dict[str, Any]]) -> Nearest:
         np.array([[row[f"a_{name}"] for name in ATTRIBUTES] for row in rows], np.float32) if rows else None,
         [row["text"] or None for row in rows],
     )
-
-
-def _milvus() -> Any:
-    try:
-        return importlib.import_module("pymilvus")
-    except ImportError as error:
-        raise MissingDependencyError("Milvus needs the package pymilvus: pip install 'motionrt[milvus]'") from error

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import importlib
 import tempfile
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
@@ -11,6 +10,7 @@ from datetime import datetime
 from pathlib import Path, PurePosixPath
 from typing import Any
 
+from motionrt.engines.packages import package
 from motionrt.errors import InvalidInputError, MissingDependencyError, MotionFileNotFoundError
 from motionrt.formats import MOTION_SUFFIXES
 from motionrt.formats.folder import Stamp
@@ -86,12 +86,7 @@ def _needed(files: Any, root: str, names: Iterable[str]) -> set[str]:
 
 def _opened(url: str) -> tuple[Any, str]:
     """The file system of an address, and the folder's path in it."""
-    try:
-        core = importlib.import_module("fsspec.core")
-    except ImportError as error:
-        raise MissingDependencyError(
-            "object stores need the package fsspec: pip install 'motionrt[cluster]'"
-        ) from error
+    core = package("fsspec.core", "a library that is no folder of this machine", "cluster")
     try:
         files, root = core.url_to_fs(url)
     except ImportError as error:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 import re
 import threading
 import time
@@ -12,9 +11,10 @@ from typing import Any, TypeVar
 import numpy as np
 
 from motionrt.engines.conditions import Conditions
+from motionrt.engines.packages import package
 from motionrt.engines.rows import Row, rows_of
 from motionrt.engines.store import KnownFile, Nearest
-from motionrt.errors import EngineError, GalleryNotFoundError, InvalidInputError, MissingDependencyError
+from motionrt.errors import EngineError, GalleryNotFoundError, InvalidInputError
 from motionrt.motion.attributes import ATTRIBUTES
 from motionrt.motion.skeleton import FloatArray
 from motionrt.retrieval import Filter, Gallery
@@ -59,7 +59,7 @@ class PostgresStore:
         if not re.fullmatch(r"[a-z][a-z0-9_]{0,40}", library):
             raise InvalidInputError(f"a library is named by small letters, digits and _, not {shown(library)}")
         self._address, self._table, self._patience_s = address, library, patience_s
-        self._driver = _driver()
+        self._driver = package("psycopg", "PostgreSQL", "postgres")
         self._lock = threading.Lock()
         self._connection: Any = None
         self._model = self._run(lambda cursor: self._prepared(cursor, model))
@@ -238,12 +238,3 @@ def _nearest(rows: list[tuple[Any, ...]]) -> Nearest:
 
 def _line(error: Exception) -> str:
     return " ".join(str(error).split())[:300]
-
-
-def _driver() -> Any:
-    try:
-        return importlib.import_module("psycopg")
-    except ImportError as error:
-        raise MissingDependencyError(
-            "PostgreSQL needs the package psycopg: pip install 'motionrt[postgres]'"
-        ) from error
