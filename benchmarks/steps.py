@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from motionrt import SMPL24, Goal, Motion, Runtime
 from motionrt.locomotion.goal_frame import uncanonicalise
 from motionrt.locomotion.stepping import step_to
+from motionrt.metrics import footing
 from motionrt.metrics.locomotion import foot_skate
 from motionrt.motion.rotations import wrapped
 from motionrt.motion.transforms import heading
@@ -96,6 +97,11 @@ def main() -> None:
     print(f"{len(short)} short moves: lifted {100 * np.mean([lifted(m) for m, *_ in short]):.0f} % of displaced feet, ")
     print(f"  foot skate {np.mean([s for *_, s in short]):.3f} (worst {max(s for *_, s in short):.3f}) cm/frame, ")
     print(f"  arrival at most {100 * max(off):.2f} cm and {np.degrees(max(turned)):.2f} degrees off")
+    feet = [footing(motion.positions(), FPS) for motion, *_ in short]
+    left, right, speed = (
+        np.mean([getattr(foot, name) for foot in feet]) for name in ("left_skate_cm", "right_skate_cm", "contact_speed")
+    )
+    print(f"  left foot {left:.3f}, right foot {right:.3f} cm/frame; {speed:.3f} m/s at contact")
     for name, velocity in (("backward", (0.0, -0.7)), ("sideways", (0.6, 0.0))):
         way = aside(runtime, velocity)
         print(f"3 m {name}: {way.duration - 2:.1f} s, foot skate {foot_skate(way.positions()):.3f} cm/frame, ")

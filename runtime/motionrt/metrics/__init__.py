@@ -1,5 +1,6 @@
 """The papers' measures, NumPy only: retrieval ranks and recall, protocols, temporal overlap, locomotion, generation."""
 
+from motionrt.metrics.footing import Footing, footing
 from motionrt.metrics.generation import Body, PositionErrors, ape, ave, temos_scores
 from motionrt.metrics.locomotion import (
     EndError,
@@ -33,6 +34,7 @@ __all__ = [
     "RECALL_AT",
     "Body",
     "EndError",
+    "Footing",
     "LocomotionMeasures",
     "PartAccuracy",
     "PathDeviation",
@@ -49,6 +51,7 @@ __all__ = [
     "drift",
     "end_error",
     "foot_skate",
+    "footing",
     "jerk",
     "keypoint_error",
     "least_similar_sum",
