@@ -19,7 +19,7 @@ from motionrt.motion.body_parts import PARTS
 from motionrt.motion.features import ego77
 from motionrt.synthesis.motion_diffusion import held_columns, solve
 from motionrt.synthesis.smoothing import smoothed
-from motionrt.text import TARGETS, Way
+from motionrt.text import TARGETS, TextAttributes
 
 BoolArray = npt.NDArray[np.bool_]
 OWNERS = held_columns()
@@ -39,14 +39,14 @@ class Words:
         features: of the sentence encoder.
         slots: ``(S,)`` classes of what it says.
         numbers, known: ``(A,)`` what it stands for in numbers, and which of them it says.
-        way: how far and which way it says that one turns and goes.
+        said: what it says.
     """
 
     features: SentenceFeatures
     slots: npt.NDArray[np.int64]
     numbers: FloatArray = field(default_factory=lambda: np.zeros(len(TARGETS), np.float32))
     known: BoolArray = field(default_factory=lambda: np.zeros(len(TARGETS), bool))
-    way: Way = field(default_factory=Way)
+    said: TextAttributes = field(default_factory=lambda: TextAttributes(""))
 
 
 @dataclass(frozen=True, eq=False)

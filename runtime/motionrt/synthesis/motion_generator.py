@@ -22,9 +22,9 @@ from motionrt.synthesis.canvas import Canvas, Held, Piece, Words, draw
 from motionrt.synthesis.constraints import Constraints
 from motionrt.synthesis.finishing import finished, locked
 from motionrt.synthesis.sampling import Sampling
-from motionrt.synthesis.steering import steered
+from motionrt.synthesis.steering import planned, steered
 from motionrt.synthesis.timeline import NETWORK, Line, pieces
-from motionrt.text import Way, parse_query, slots_of_text, targets_of_text, way_of_text
+from motionrt.text import parse_query, slots_of_text, targets_of_text
 
 READ = 24  # tokens of a text that the network has learnt to read
 RING = 10  # frames at 20 fps over which the end of a loop passes into its beginning
@@ -75,7 +75,10 @@ class Wanted:
                 self._correct,
             )
         found, frames = pieces(self.lines, words)
-        return Canvas(found, self.constraints.held(frames), False, self._correct or _steering(found, self.constraints))
+        held = self.constraints.held(frames)
+        if self.constraints.kept or self._correct:
+            return Canvas(found, held, False, self._correct)
+        return Canvas(found, planned(found, frames).over(held), False, lambda features: steered(features, found))
 
     @property
     def _correct(self) -> Callable[[FloatArray], Held] | None:
@@ -118,7 +121,7 @@ class MotionGenerator:
             found.token_features[:, :READ], found.attention_mask[:, :READ], found.sentence_embedding
         )
         said = parse_query(text)
-        return Words(read, slots_of_text(said), *targets_of_text(said, seconds), way_of_text(said, seconds))
+        return Words(read, slots_of_text(said), *targets_of_text(said, seconds), said)
 
     def features(self, canvas: Canvas, sampling: Sampling, number: int = 0) -> FloatArray:
         """Raw ``ego77`` ``(F, 77)`` at 20 fps of sample ``number``."""
@@ -135,13 +138,6 @@ class MotionGenerator:
         if wanted.constraints.corrects:
             return locked(motion, sampling.foot_lock)
         return finished(motion, sampling.foot_lock)
-
-
-def _steering(found: list[Piece], constraints: Constraints) -> Callable[[FloatArray], Held] | None:
-    """Texts steer where nothing that is kept does."""
-    if constraints.kept or all(piece.words.way == Way() for piece in found):
-        return None
-    return lambda features: steered(features, found)
 
 
 def _where(clip: Motion, motion: Motion) -> Motion:

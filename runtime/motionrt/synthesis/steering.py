@@ -1,12 +1,12 @@
-"""What a text says of the way is met: turns and ways that stray are brought into their ranges while a motion is drawn.
+"""What a text says is met: ways, heights and limbs that stray are brought to it while a motion is drawn.
 
-The root is corrected at the late steps of the sampling and held there, so that the network fits the steps to it, as it
-does for paths (imputation: Karunratanakul et al. 2023).
+Heights are planned before the sampling; ways and limbs are corrected at its late steps and held there, so that the
+network fits the rest to them, as it does for paths (imputation: Karunratanakul et al. 2023).
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 import numpy.typing as npt
@@ -14,7 +14,9 @@ import numpy.typing as npt
 from motionrt.models.text import FloatArray
 from motionrt.motion.body_parts import PARTS
 from motionrt.motion.features import ego77
+from motionrt.synthesis.calming import calmed
 from motionrt.synthesis.canvas import Held, Piece
+from motionrt.text import TextAttributes, heights_of_text, way_of_text
 from motionrt.text.ways import Range, Way
 
 GLOBAL = PARTS.index("global")
@@ -23,18 +25,36 @@ _TURNED, _GONE = np.radians(1.0), 0.02  # what is not worth a correction, radian
 Array = npt.NDArray[np.float64]
 
 
+def planned(pieces: Sequence[Piece], frames: int) -> Held:
+    """The root of texts that go down or up, on the spot."""
+    held = Held.nothing(frames)
+    for span, said in _spans(pieces):
+        heights = heights_of_text(said, np.arange(span.stop - span.start) / ego77.FPS)
+        if heights is not None:
+            held.motion[span, ego77.ROOT] = np.stack([np.zeros_like(heights)] * 3 + [heights], axis=1)
+            held.parts[span, GLOBAL] = True
+    return held
+
+
 def steered(features: FloatArray, pieces: Sequence[Piece]) -> Held:
-    """What must be otherwise about a motion ``(F, 77)`` so that it goes where the texts of its pieces say."""
+    """What must be otherwise about a motion ``(F, 77)`` so that it does what the texts of its pieces say."""
     held = Held.nothing(len(features))
-    for piece in pieces:
-        own = np.flatnonzero(piece.weight[:, GLOBAL] > 0.5)
-        if not len(own) or piece.words.way == Way():
-            continue
-        span = slice(piece.first + int(own[0]), piece.first + int(own[-1]) + 1)
-        found = brought(features[span], piece.words.way)
+    for span, said in _spans(pieces):
+        rows = features[span]
+        calm, parts = calmed(rows, said)
+        held.motion[span], held.parts[span] = calm, parts
+        found = brought(calm, way_of_text(said, len(rows) / ego77.FPS))
         if found is not None:
             held.motion[span], held.parts[span, GLOBAL] = found, True
     return held
+
+
+def _spans(pieces: Sequence[Piece]) -> Iterator[tuple[slice, TextAttributes]]:
+    """The frames whose root belongs to each piece, and what its text says."""
+    for piece in pieces:
+        own = np.flatnonzero(piece.weight[:, GLOBAL] > 0.5)
+        if len(own):
+            yield slice(piece.first + int(own[0]), piece.first + int(own[-1]) + 1), piece.words.said
 
 
 def brought(features: FloatArray, way: Way) -> FloatArray | None:

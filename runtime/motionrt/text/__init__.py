@@ -13,7 +13,7 @@ from motionrt.text.slots import (
     slots_of_text,
 )
 from motionrt.text.targets import TARGETS, attribute_targets, mirror_known, mirror_targets, targets_of_text
-from motionrt.text.ways import Way, way_of_text
+from motionrt.text.ways import Way, heights_of_text, way_of_text
 
 __all__ = [
     "ACTIONS",
@@ -25,6 +25,7 @@ __all__ = [
     "agreement",
     "agreements",
     "attribute_targets",
+    "heights_of_text",
     "mirror_known",
     "mirror_slots",
     "mirror_targets",

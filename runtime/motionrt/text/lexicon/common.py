@@ -34,7 +34,7 @@ GROUPS = {
         r"|rose) (?:from|up\b|to (?:his|her|their) feet|again)|climbs? to (?:his|her|their) feet"
         r"|gets? (?:back )?to (?:his|her|their|the) feet|straightens? (?:back )?up|comes? (?:back )?up"
         r"|push\w* (?:\w+ )?up from|stand(?:s|ing)? (?:back )?up\b|get(?:s|ting)? (?:back )?(?:up"
-        r"|on (?:his|her|their) feet)|(?:rise|get|stand|come)\w* from)"
+        r"|on (?:his|her|their) feet)|(?:rise|get|stand|come)\w* from|(?:then|and) rises?\b(?! on))"
     ),
 }
 

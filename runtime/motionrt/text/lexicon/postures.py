@@ -69,7 +69,10 @@ POSTURE_STATES = (  # posture name -> words that somebody is or gets into it
 )
 
 DOWN_WORDS = (
-    r"sits? down|sitting down|sat down|lies? down|lying down|lay(?:s|ing)? down"
+    r"(?:go|went|get|got|drop|sink|sank|lower|slump|settl|eas|flop|plop|slid|com|mov)\w* (?:\w+ ){0,3}?"
+    r"(?:on|onto|to|into|in) (?:\w+ ){0,3}?"
+    r"(?:knees?|fours|seat|chair|stool|bench|couch|sofa|floor|ground|stomach|belly|back)\b"
+    r"|sits? down|sitting down|sat down|lies? down|lying down|lay(?:s|ing)? down"
     r"|kneels?(?: down)?\b|\bknelt|to (?:one|his|her|the|both|their) knees?|falls?\b|fell\b"
     r"|collaps\w*|tak\w+ a (?:seat|knee)|gets? down|getting down|goes? down|drop\w* (?:down|to)"
     r"|lower\w* (?:himself|herself|themselves|down|to)|faint\w*|knocked (?:down|out|over)|dies"

@@ -1,0 +1,59 @@
+"""Limbs that a text leaves out move less; what it names moves on."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from motionrt import PARTS
+from motionrt.motion.features import ego77
+from motionrt.motion.skeleton import SMPL24
+from motionrt.synthesis.calming import calmed
+from motionrt.text import parse_query
+
+
+def waving(left: float, right: float, frames: int = 60) -> np.ndarray:
+    """Features in which hands swing by so many metres beside shoulders that stand."""
+    rows = np.zeros((frames, ego77.WIDTH), np.float32)
+    swing = np.sin(np.arange(frames) / 3.0)
+    for side, metres in (("left", left), ("right", right)):
+        for joint in ("elbow", "wrist", "hand"):
+            rows[:, _first(f"{side}_{joint}")] = 0.3 + metres * swing
+    return rows
+
+
+def _first(joint: str) -> int:
+    return ego77.JOINTS.start + 3 * (SMPL24.index(joint) - 1)
+
+
+def _swing(rows: np.ndarray, joint: str) -> float:
+    return float(np.ptp(rows[:, _first(joint)]))
+
+
+@pytest.mark.parametrize(("side", "other"), [("left", "right"), ("right", "left")])
+def test_the_arm_that_a_text_does_not_name_moves_less_than_the_one_it_names(side: str, other: str) -> None:
+    rows = waving(0.2, 0.2)
+    found, parts = calmed(rows, parse_query(f"a person waves with the {side} hand"))
+    assert _swing(found, f"{side}_wrist") == pytest.approx(_swing(rows, f"{side}_wrist"))
+    assert _swing(found, f"{other}_wrist") < 0.6 * _swing(rows, f"{other}_wrist")
+    assert [part for part, changed in zip(PARTS, parts[0], strict=True) if changed] == [f"{other} arm"]
+
+
+def test_an_arm_that_hangs_is_left_as_it_is() -> None:
+    rows = waving(0.02, 0.2)
+    found, parts = calmed(rows, parse_query("wave with the right hand"))
+    np.testing.assert_array_equal(found, rows)
+    assert not parts.any()
+
+
+def test_whoever_stands_still_hardly_moves() -> None:
+    rows = waving(0.2, 0.1)
+    found, parts = calmed(rows, parse_query("a person stands still"))
+    speed = np.abs(np.diff(found[:, _first("left_wrist")])).mean() * ego77.FPS
+    assert parts.all()
+    assert speed <= 0.16
+
+
+def test_texts_that_name_no_arm_change_nothing() -> None:
+    rows = waving(0.2, 0.1)
+    np.testing.assert_array_equal(calmed(rows, parse_query("a person dances"))[0], rows)
