@@ -1,0 +1,68 @@
+"""Tables of ablations: every row is a command that its recipe understands, and finished rows are not trained again."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+import pytest
+
+from motionrt_training.checkpoint import save_atomically
+from motionrt_training.evaluate.ablations import TABLES, command_of, folder_of, main, retrieval_page, train_rows
+from motionrt_training.recipes import temos, tmr
+
+RECIPES = {"tmr": tmr, "temos": temos}
+
+
+def options(folder: Path, also: str = "--layers 3") -> argparse.Namespace:
+    return argparse.Namespace(corpus=folder / "a.npz", captions=folder / "c.jsonl", out=folder, minutes=2.0, also=also)
+
+
+@pytest.mark.parametrize("name", sorted(TABLES))
+def test_every_row_is_understood_by_its_recipe_and_has_the_same_budget(name: str, tmp_path: Path) -> None:
+    table = TABLES[name]
+    for row in table.rows:
+        python, module, recipe, *words = command_of(table, row, options(tmp_path))
+        assert (module, recipe) == ("-m", f"motionrt_training.recipes.{table.recipe}")
+        parsed = RECIPES[table.recipe].parser().parse_args(words)
+        assert (parsed.minutes, parsed.layers) == (2.0, 3)
+    assert len({row.name for row in table.rows}) == len(table.rows)
+
+
+def test_the_published_rows_are_there() -> None:
+    assert [row.name for row in TABLES["filtering"].rows if "paper" in row.name] == ["0.8 (the paper's)"]
+    shares = [
+        row.options for row in TABLES["synthetic"].rows if "random" not in row.name and "--no-pairs" not in row.options
+    ]
+    assert [words.rpartition(" ")[2] for words in shares] == ["0.0", "0.25", "0.5", "1.0"]
+
+
+def test_rows_are_trained_once_and_their_own_measures_make_the_page(tmp_path: Path) -> None:
+    table, asked = TABLES["losses"], []
+
+    def train(words: list[str]) -> None:
+        asked.append(words)
+        folder = Path(words[words.index("--out") + 1])
+        state = {"measures": {"test_t2m_R1": 10.0 + len(asked)}, "step": 7, "elapsed": 120.0}
+        save_atomically(state, folder / "best.pt")
+
+    train_rows(table, options(tmp_path), train)
+    train_rows(table, options(tmp_path), train)
+    assert len(asked) == len(table.rows)
+    page = retrieval_page(table, tmp_path)
+    assert "| margin loss | 7 | 2.0 | 13.0 | nan |" in page
+
+
+def test_tables_share_what_is_trained_alike() -> None:
+    inputs, synthetic = TABLES["inputs"], TABLES["synthetic"]
+    singles = [folder_of(Path("x"), inputs, row) for row in inputs.rows[:2]]
+    assert singles[0] == singles[1]
+    sinc = folder_of(Path("x"), inputs, inputs.rows[3])
+    assert sinc in [folder_of(Path("x"), synthetic, row) for row in synthetic.rows]
+
+
+def test_the_list_is_printed_and_missing_captions_are_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    main(["losses", "--corpus", "a.npz", "--out", str(tmp_path), "--list"])
+    assert len(capsys.readouterr().out.splitlines()) == len(TABLES["losses"].rows)
+    with pytest.raises(SystemExit, match="error: SINC, Table 3 needs --captions"):
+        main(["synthetic", "--corpus", "a.npz", "--out", str(tmp_path)])

@@ -1,0 +1,167 @@
+"""The papers' tables of ablations, each by one command: every row is trained for the same time, then measured.
+
+    python -m motionrt_training.evaluate.ablations losses --corpus runs/mine/pairs.npz --out runs/tables --minutes 10
+    python -m motionrt_training.evaluate.ablations synthetic --corpus runs/mine/recordings.npz --out runs/tables \
+        --captions runs/mine/captions.jsonl --score runs/score/best.pt --minutes 10
+
+Rows that are there already are not trained again, so that the command can be given in pieces; `--list` only prints what
+would run. `--also` adds options to every row, such as `--layers 3`.
+"""
+
+from __future__ import annotations
+
+import argparse
+import shlex
+import subprocess
+import sys
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from motionrt.errors import InvalidInputError
+from motionrt_training.checkpoint import load_state
+from motionrt_training.command import reports_errors
+from motionrt_training.evaluate import generation
+from motionrt_training.evaluate.tables import markdown
+
+Run = Callable[[list[str]], None]
+SCORES = ("t2m_R1", "t2m_R3", "t2m_R10", "t2m_MedR", "m2t_R1", "m2t_R10")
+
+
+@dataclass(frozen=True)
+class Row:
+    """A line of a table: what is trained with which options, and how it is asked for two actions."""
+
+    name: str
+    options: str = ""
+    way: str = "text"
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table of a paper: which recipe, and its lines."""
+
+    paper: str
+    recipe: str
+    rows: tuple[Row, ...]
+
+
+def _values(option: str, *values: object, paper: object) -> tuple[Row, ...]:
+    return tuple(Row(f"{v} (the paper's)" if v == paper else f"{v}", f"{option} {v}") for v in values)
+
+
+SINGLES = "--captions 0 --no-pairs"
+LABELS = "--captions 0"
+TABLES: Mapping[str, Table] = {
+    "losses": Table("TMR, Table 3", "tmr", (
+        Row("reconstruction, no contrast (TEMOS)", "--no-contrastive"),
+        Row("contrast alone", "--no-reconstruction --contrast mean --kl-weight 0 --latent-weight 0"),
+        Row("margin loss", "--margin"),
+        Row("InfoNCE, no filtering", "--threshold none"),
+        Row("InfoNCE, filtering", "--no-directions"),
+    )),
+    "filtering": Table("TMR, Table 4", "tmr", (
+        *_values("--no-directions --threshold", 0.55, 0.6, 0.65, 0.7, 0.75, 0.8, 0.85, 0.9, 0.95, paper=0.8),
+        Row("none", "--threshold none"),
+    )),
+    "temperature": Table("TMR, sweep of the temperature", "tmr", _values(
+        "--temperature", 0.001, 0.01, 0.1, 1.0, paper=0.1
+    )),
+    "weight": Table("TMR, sweep of the weight of InfoNCE", "tmr", _values(
+        "--contrastive-weight", 0.001, 0.01, 0.1, 1.0, paper=0.1
+    )),
+    "batch": Table("TMR, sweep of the batch", "tmr", _values("--batch", 16, 32, 64, 128, paper=32)),
+    "width": Table("TMR, sweep of the latent", "tmr", _values("--d", 64, 128, 256, 512, paper=256)),
+    "inputs": Table("SINC, Table 2", "temos", (
+        Row("single actions", f"{SINGLES} --synthetic 0"),
+        Row("single actions, composed", f"{SINGLES} --synthetic 0", "compose"),
+        Row("separate texts (STE)", f"{LABELS} --separate --synthetic 0.5", "separate"),
+        Row("SINC", f"{LABELS} --synthetic 0.5"),
+    )),
+    "synthetic": Table("SINC, Table 3", "temos", (
+        *(Row(f"real pairs, {share} % synthetic", f"{LABELS} --synthetic {share / 100}") for share in (0, 25, 50, 100)),
+        *(Row(f"no real pairs, {share} % synthetic", f"{SINGLES} --synthetic {share / 100}") for share in (0, 50, 100)),
+        Row("real pairs, 50 % of random parts", f"{LABELS} --synthetic 0.5 --random-parts"),
+        Row("no real pairs, 100 % of random parts", f"{SINGLES} --synthetic 1 --random-parts"),
+    )),
+}  # fmt: skip
+"""Name -> table; two rows of the same options are trained once."""
+
+
+def folder_of(out: Path, table: Table, row: Row) -> Path:
+    """Where a row is trained: named after its options, so that tables share what they have in common."""
+    words = [word.lstrip("-") for word in row.options.split()]
+    return out / f"{table.recipe}-{'-'.join(words) or 'default'}"
+
+
+def command_of(table: Table, row: Row, args: argparse.Namespace) -> list[str]:
+    """The command line that trains a row."""
+    words = [sys.executable, "-m", f"motionrt_training.recipes.{table.recipe}", "--corpus", str(args.corpus)]
+    words += ["--out", str(folder_of(args.out, table, row)), "--minutes", str(args.minutes)]
+    words += ["--captions-file", str(args.captions)] if table.recipe == "temos" else []
+    return [*words, *row.options.split(), *shlex.split(args.also)]
+
+
+def train_rows(table: Table, args: argparse.Namespace, run: Run) -> None:
+    """Train every row that is not there yet."""
+    for row in table.rows:
+        if not (folder_of(args.out, table, row) / "best.pt").is_file():
+            run(command_of(table, row, args))
+
+
+def retrieval_page(table: Table, out: Path) -> str:
+    """Rows of a table of TMR as their checkpoints measured them: the test split, all against all."""
+    head = ["", "steps", "minutes", *(name.replace("_", " ") for name in SCORES)]
+    body = []
+    for row in table.rows:
+        state = load_state(folder_of(out, table, row) / "best.pt")
+        figures = [state["measures"].get(f"test_{name}", float("nan")) for name in SCORES]
+        body.append([row.name, state["step"], f"{state['elapsed'] / 60:.1f}", *(f"{value:.1f}" for value in figures)])
+    return markdown(head, body)
+
+
+def pair_page(table: Table, args: argparse.Namespace) -> str:
+    """Rows of a table of SINC, measured by `evaluate.generation pairs`."""
+    page = args.out / f"{args.table}-pairs.md"
+    words = ["pairs", "--recordings", str(args.corpus), "--captions", str(args.captions), "-o", str(page)]
+    words += ["--encoder", str(args.score)] if args.score else []
+    for row in table.rows:
+        words += ["--row", f"{row.name}={row.way}:{folder_of(args.out, table, row) / 'best.pt'}"]
+    generation.main(words)
+    return page.read_text(encoding="utf-8")
+
+
+def _run(words: list[str]) -> None:
+    print(shlex.join(words), flush=True)
+    subprocess.run(words, check=True)
+
+
+@reports_errors
+def main(arguments: Sequence[str] | None = None) -> None:
+    """The command line."""
+    parser = argparse.ArgumentParser(description="Train and measure the rows of a paper's table.")
+    parser.add_argument("table", choices=tuple(TABLES))
+    parser.add_argument("--corpus", type=Path, required=True, help="pairs.npz for TMR, recordings.npz for SINC")
+    parser.add_argument("--captions", type=Path, help="SINC: captions.jsonl with labels and parts")
+    parser.add_argument("--score", type=Path, help="SINC: checkpoint whose motion encoder gives the TEMOS score")
+    parser.add_argument("--out", type=Path, required=True, help="folder of the runs and of the page")
+    parser.add_argument("--minutes", type=float, default=10.0, help="of training for each row (default: %(default)s)")
+    parser.add_argument("--also", default="", help="options for every row, as one word: '--layers 3 --threads 1'")
+    parser.add_argument("--list", action="store_true", help="only print the commands")
+    args = parser.parse_args(arguments)
+    table = TABLES[args.table]
+    if table.recipe == "temos" and args.captions is None:
+        raise InvalidInputError(f"{table.paper} needs --captions, the captions.jsonl beside the recordings")
+    if args.list:
+        print("\n".join(shlex.join(command_of(table, row, args)) for row in table.rows))
+        return
+    train_rows(table, args, _run)
+    body = retrieval_page(table, args.out) if table.recipe == "tmr" else pair_page(table, args)
+    heading = f"# {table.paper}\n\nEach row was trained for {args.minutes:g} minutes {args.also}".rstrip()
+    page = args.out / f"{args.table}.md"
+    page.write_text(f"{heading}, on {args.corpus}.\n\n{body}\n", encoding="utf-8", newline="\n")
+    print(page)
+
+
+if __name__ == "__main__":
+    main()
