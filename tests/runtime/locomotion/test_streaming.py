@@ -123,3 +123,17 @@ def test_locked_feet_do_not_slide() -> None:
 def test_another_frame_rate_is_refused() -> None:
     with pytest.raises(InvalidInputError, match="resample"):
         next(stream(FakeCharacterModels(), random_motion(30, 20.0), Goal(0, 5)))
+
+
+def test_random_goals_at_random_times_never_make_it_leap() -> None:
+    rng = np.random.default_rng(3)
+    walker, seen = stream(FakeCharacterModels(turns_gently), Goal(0, 0), Goal(0, 2)), list[Motion]()
+    for _ in range(40):
+        x, z = roots(seen[-1:])[0] if seen else (0.0, 0.0)
+        far, way = rng.choice([0.1, 1.0, 3.0, 9.0]), rng.uniform(-np.pi, np.pi)
+        goal = Goal(x + far * np.sin(way), z + far * np.cos(way), rng.uniform(-3, 3))
+        seen += [walker.send(goal), *islice(walker, int(rng.integers(0, 50)))]
+    speed = np.linalg.norm(np.diff(np.concatenate([motion.root for motion in seen]), axis=0), axis=1) * FPS
+    turn = np.abs(wrapped(np.diff([facing_of(motion) for motion in seen]))) * FPS
+    assert speed.max() < 6.0
+    assert np.degrees(turn.max()) < 400.0

@@ -1,4 +1,4 @@
-"""Files with semantic point clouds: PLY, CSV and npz."""
+"""Files with semantic point clouds: PLY, CSV, npz and OBJ."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ import numpy as np
 
 from motionrt.errors import FormatError, InvalidInputError, MotionFileNotFoundError
 from motionrt.locomotion.words.cloud import SemanticCloud
+from motionrt.locomotion.words.obj import read_obj
 from motionrt.locomotion.words.ply import read_ply
 from motionrt.untrusted.files import as_path, check_file, read_utf8
 from motionrt.untrusted.npz import read_arrays
@@ -24,6 +25,7 @@ def load_cloud(path: str | Path, names: dict[int, str] | None = None) -> Semanti
     * ``.ply`` with x, y, z and an integer ``label`` (also ``class``, ``category``, ``semantic``); names come from
       ``names`` or from comments of the form ``comment label 3 sofa``;
     * ``.csv`` with a header ``x,y,z,label``, labels as words;
+    * ``.obj``: points on the faces of a mesh, labelled by object (``o``), else group (``g``), else material;
     * ``.npz`` with ``points`` ``(N, 3)``, ``labels`` ``(N,)`` and, for integer labels, ``names``.
 
     Raises:
@@ -31,7 +33,7 @@ def load_cloud(path: str | Path, names: dict[int, str] | None = None) -> Semanti
         FormatError: another suffix, or a file that is not as described; names file, line and reason.
     """
     path = as_path(path)
-    readers = {".ply": _ply, ".csv": _csv, ".npz": _npz}
+    readers = {".ply": _ply, ".csv": _csv, ".npz": _npz, ".obj": _obj}
     if path.suffix.lower() not in readers:
         raise FormatError(path, f"a semantic cloud is one of {', '.join(readers)}")
     try:
@@ -85,6 +87,13 @@ def _row(path: Path, line: int, row: dict[str, str]) -> tuple[list[float], str]:
         return [float(row[axis]) for axis in "xyz"], row["label"].strip()
     except (TypeError, ValueError, AttributeError):
         raise FormatError(path, "expected three numbers and a label", line) from None
+
+
+def _obj(path: Path, names: dict[int, str] | None) -> SemanticCloud:
+    points, labels = read_obj(path)
+    if names is not None:
+        labels = np.array([names.get(int(label), label) if _is_number(label) else label for label in labels.tolist()])
+    return SemanticCloud(points, labels)
 
 
 def _npz(path: Path, names: dict[int, str] | None) -> SemanticCloud:

@@ -147,3 +147,49 @@ def test_things_that_share_a_label_are_told_apart_largest_first() -> None:
 
 def test_unnamed_numbers_are_their_own_names() -> None:
     assert SemanticCloud(POINTS, LABELS).names == ("3", "7")
+
+
+OBJ = """# a table on a floor, Y up
+v -2 0 -2
+v 2 0 -2
+v 2 0 2
+v -2 0 2
+{kind} floor
+f 1 2 3 4
+v -0.5 0.75 -0.5
+v 0.5 0.75 -0.5
+v 0.5 0.75 0.5
+v -0.5 0.75 0.5
+{kind} dining table
+f -4/1/1 -3//2 -2 -1
+"""
+
+
+@pytest.mark.parametrize("kind", ["o", "g", "usemtl"])
+def test_faces_of_a_semantic_obj_become_labelled_points(tmp_path: Path, kind: str) -> None:
+    file = tmp_path / "room.obj"
+    file.write_text(OBJ.format(kind=kind), encoding="utf-8")
+    cloud = load_cloud(file)
+    assert cloud.names == ("dining table", "floor")
+    table, floor = cloud.of("dining table"), cloud.of("floor")
+    np.testing.assert_allclose(table[:, 1], 0.75)
+    np.testing.assert_allclose(np.ptp(floor[:, [0, 2]], axis=0), 4.0)
+    assert cloud.floor == 0.0
+    gaps = np.linalg.norm(table[:, None, [0, 2]] - np.random.default_rng(0).uniform(-0.5, 0.5, (50, 2)), axis=2)
+    assert gaps.min(axis=0).max() < 0.05
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("v 0 0\n", r":1: a vertex"),
+        ("v 0 0 0\nf 1 2 3\n", r":2: corner 2"),
+        ("f x y z\n", "no corner"),
+        ("", "no faces"),
+    ],
+)
+def test_a_broken_obj_is_refused_with_its_line(tmp_path: Path, text: str, reason: str) -> None:
+    file = tmp_path / "room.obj"
+    file.write_text(text, encoding="utf-8")
+    with pytest.raises(FormatError, match=reason):
+        load_cloud(file)
