@@ -21,6 +21,7 @@ from motionrt.synthesis.sampling import SECONDS
 from motionrt.text import agreement, parse_query
 from motionrt.untrusted.arguments import check_flags, check_functions, check_kind, checked_number, checked_whole, listed
 from motionrt.untrusted.files import as_path
+from motionrt.untrusted.names import plain_stem
 from motionrt.untrusted.words import shown
 
 ACCEPTED = 0.75
@@ -162,7 +163,7 @@ def _kept(path: Path, prompt: str) -> Made | None:
 
 
 def _slug(prompt: str) -> str:
-    return re.sub(r"[^a-z0-9]+", "_", prompt.lower()).strip("_")[:60] or "clip"
+    return plain_stem(re.sub(r"[^a-z0-9]+", "_", prompt.lower()), 60) or "clip"
 
 
 def _write_captions(path: Path, made: Iterable[Made]) -> None:

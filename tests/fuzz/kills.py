@@ -1,11 +1,20 @@
-"""A process that builds or updates a gallery and is killed at its n-th step on the disk."""
+"""A process that builds or updates a gallery and is killed at its n-th step on the disk.
+
+    python tests/fuzz/kills.py --kills 200
+
+makes so many kills, at every step of builds and updates of galleries of 2, 3, 4 ... clips, and exits with 1 if one of
+them leaves anything but no gallery, the old one or the new one.
+"""
 
 from __future__ import annotations
 
+import argparse
 import os
+import shutil
 import signal
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 HERE = Path(__file__).parent
@@ -40,3 +49,61 @@ def killed_at(step: int, verb: str, source: Path, target: Path) -> bool:
     if done.returncode not in (0, -signal.SIGKILL):
         raise AssertionError(done.stderr[-2000:])
     return done.returncode != 0
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--kills", type=int, default=200, metavar="N", help="default: %(default)s")
+    wanted, made, clips = parser.parse_args().kills, 0, 2
+    while made < wanted:
+        with tempfile.TemporaryDirectory() as folder:
+            for verb in ("build", "update"):
+                made += _kill_everywhere(verb, clips, Path(folder) / verb, wanted - made)
+        print(f"{made} kills, galleries of up to {clips + 1} clips: whole every time", flush=True)
+        clips += 1
+    return 0
+
+
+def _kill_everywhere(verb: str, clips: int, folder: Path, most: int) -> int:
+    """Kill one verb at each of its steps; how many kills that were."""
+    from fake_embedder import open_fake
+    from motions import walking
+
+    from motionrt.retrieval import build_gallery
+
+    source = folder / "clips"
+    source.mkdir(parents=True)
+    for number in range(clips):
+        walking(24, speed=0.8 + 0.1 * number).save(source / f"{number}.npz")
+    before = folder / "before"
+    if verb == "update":
+        build_gallery(source, open_fake, out=before)
+        walking(24, speed=3.0).save(source / "new.npz")
+    for step in range(most):
+        target = folder / f"gallery-{step}"
+        if verb == "update":
+            shutil.copytree(before, target)
+        if not killed_at(step, verb, source, target):
+            return step
+        _check(verb, clips, target)
+    return most
+
+
+def _check(verb: str, clips: int, target: Path) -> None:
+    from motionrt.errors import GalleryNotFoundError
+    from motionrt.retrieval import Gallery
+
+    try:
+        gallery = Gallery.open(target)
+    except GalleryNotFoundError:
+        if verb == "update":
+            raise
+        return
+    gallery.verify()
+    if len(gallery) not in ({clips} if verb == "build" else {clips, clips + 1}):
+        raise AssertionError(f"{target} has {len(gallery)} clips")
+
+
+if __name__ == "__main__":
+    sys.path[:0] = [str(HERE.parent / "helpers")]
+    sys.exit(main())

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,6 +11,7 @@ from motionrt.cli.options import add_json, command
 from motionrt.cli.parsing import WrongUsageError
 from motionrt.cli.reading import INPUTS, add_reading, in_options, read_motion, spare_inputs
 from motionrt.cli.skipped import SOME_SKIPPED, say_skipped
+from motionrt.untrusted.names import plain_stem
 
 if TYPE_CHECKING:
     from motionrt.motion import Motion
@@ -145,7 +145,7 @@ def _convert_one(arguments: argparse.Namespace, source: Path, animation: str | N
 
 def _target(path: Path, animation: str | None, suffix: str, taken: set[Path]) -> Path:
     """Where a file goes: two sources of one stem do not write the same file, and no source is written over."""
-    stem = path.stem if animation is None else f"{path.stem}__" + re.sub(r"[^\w .()-]", "_", animation)
+    stem = path.stem if animation is None else f"{path.stem}__{plain_stem(animation) or 'animation'}"
     names = [stem, f"{stem}_{path.suffix[1:]}", *(f"{stem}_{path.suffix[1:]}_{k}" for k in range(2, 1000))]
     target = next(target for name in names if (target := path.with_name(name + suffix)).resolve() not in taken)
     taken.add(target.resolve())

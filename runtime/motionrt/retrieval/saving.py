@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from motionrt.errors import InvalidInputError, MotionRTError
 from motionrt.motion import Motion
 from motionrt.untrusted.files import as_path
+from motionrt.untrusted.names import plain_stem
 
 if TYPE_CHECKING:
     from motionrt.retrieval.gallery import Gallery
@@ -75,7 +76,7 @@ class _Span:
     def file_name(self) -> str:
         """Rank, clip and span, in letters that every file system takes."""
         stem = _SUFFIX.sub("", self.clip)
-        plain = re.sub(r"[^\w.-]+", "_", stem.replace("/", "__")).encode()[:150].decode(errors="ignore")
+        plain = plain_stem(stem.replace("/", "__"), 150)
         return f"{self.rank:03d}_{plain}_{self.start:.1f}-{self.end:.1f}s"
 
 

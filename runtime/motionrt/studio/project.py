@@ -20,6 +20,7 @@ from motionrt.limits import how_to_raise, limits
 from motionrt.motion import Motion
 from motionrt.studio.script_text import script_text
 from motionrt.studio.state import State
+from motionrt.untrusted.names import plain_stem
 
 SHEET, SCRIPT, PLAN = "project.json", "script.yaml", "plan.yaml"
 _MOST = 100  # files of a bundle
@@ -96,8 +97,9 @@ def sheet_of(files: list[tuple[str, bytes]]) -> dict[str, Any] | None:
 
 def plain_name(name: str) -> str:
     """The last part of a path, in letters that every file system takes."""
-    last = name.replace("\\", "/").rpartition("/")[2]
-    return re.sub(r"[^\w.-]+", "_", last, flags=re.ASCII).lstrip(".")[-80:]
+    last = Path(name.replace("\\", "/").rpartition("/")[2])
+    stem = plain_stem(last.stem.encode("ascii", "replace").decode()) or "file"
+    return stem + re.sub(r"[^.\w]", "", last.suffix, flags=re.ASCII)[:10].rstrip(".")
 
 
 def _check(members: list[zipfile.ZipInfo]) -> None:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from motionrt.errors import InvalidInputError, MotionRTError
 from motionrt.formats import WRITABLE_SUFFIXES
 from motionrt.motion import Motion
+from motionrt.untrusted.names import plain_stem
 
 if TYPE_CHECKING:
     from motionrt.runtime import Runtime
@@ -68,8 +69,7 @@ def motion_bytes(motion: Motion, form: str) -> bytes:
 def file_name(name: str, suffix: str) -> str:
     """A name that every file system takes."""
     plain = re.sub(r"\.(bvh|amc|npz|glb|ya?ml)$", "", name.strip(), flags=re.IGNORECASE)
-    plain = re.sub(r"[^\w.-]+", "_", plain.replace("/", "__")).strip("._")[:80]
-    return f"{plain or 'motion'}.{suffix}"
+    return f"{plain_stem(plain.replace('/', '__')) or 'motion'}.{suffix}"
 
 
 def save_in(folder: Path, name: str, content: bytes) -> Path:
