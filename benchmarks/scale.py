@@ -315,7 +315,7 @@ build_gallery({folder!r}, open_instant, out={out!r})
 """
 
 
-def killed(count: int, kills: int) -> dict[str, Any]:
+def killed(count: int, kills: int, between: Sequence[float]) -> dict[str, Any]:
     """A build in a process that is killed again and again: how much is read in all, and whether anything is lost."""
     with tempfile.TemporaryDirectory(dir=os.environ.get("MOTIONRT_SCRATCH")) as place:
         folder, out = Path(place) / "library", Path(place) / "killed"
@@ -325,7 +325,7 @@ def killed(count: int, kills: int) -> dict[str, Any]:
         for _ in range(kills):
             child = subprocess.Popen([sys.executable, "-c", code])
             try:
-                child.wait(draw.uniform(2, 8))
+                child.wait(draw.uniform(*between))
             except subprocess.TimeoutExpired:
                 child.send_signal(signal.SIGKILL)
                 child.wait()
@@ -345,6 +345,9 @@ def main() -> None:
     parser.add_argument("--exact-only", action="store_true", help="no graphs, which take minutes to hours")
     parser.add_argument("--precision", nargs="*", default=["float16", "int8"])
     parser.add_argument("--kills", type=int, default=20)
+    parser.add_argument(
+        "--between", type=float, nargs=2, default=(2, 8), help="seconds until a kill, at least and most"
+    )
     parser.add_argument("--jobs", type=int, default=1, help="processes of the library's build")
     parser.add_argument("-o", "--out", type=Path)
     arguments = parser.parse_args()
@@ -353,7 +356,7 @@ def main() -> None:
         if arguments.what == "library":
             told.append(library(size, arguments.jobs))
         elif arguments.what == "kills":
-            told.append(killed(size, arguments.kills))
+            told.append(killed(size, arguments.kills, arguments.between))
         else:
             told.append(
                 windows(size, noise=arguments.noise, exact_only=arguments.exact_only, precisions=arguments.precision)

@@ -102,4 +102,7 @@ def test_the_graph_finds_nearly_all(postgres: Server) -> None:
     pairs = [[set(zip(one.clips, one.spans[:, 0].tolist(), strict=True)) for one in both] for both in (exact, near)]
     shares = [len(a & b) / 10 for a, b in zip(*pairs, strict=True)]
     assert np.mean(shares) > 0.9
+    for told in (Filter(where="turn > 90"), Filter(folder="b", where="turn > 60"), Filter(min_s=99)):
+        alike = [store.nearest(queries, 200, told, approximate=choice) for choice in (False, True)]
+        assert [len(one.clips) for one in alike[0]] == [len(one.clips) for one in alike[1]]
     store.close()

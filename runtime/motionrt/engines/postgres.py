@@ -112,20 +112,24 @@ class PostgresStore:
         *,
         approximate: bool = False,
     ) -> list[Nearest]:
-        """The nearest windows of each query; approximate is by the graph that :meth:`index` makes."""
+        """The nearest windows of each query; approximate is by the graph that :meth:`index` makes.
+
+        Where the graph finds fewer than ``count``, as behind a filter that few windows pass, the search is exact.
+        """
         where, values = _where(filter)
         select = (
             f"select clip, start_s, end_s, embedding::real[], attributes, text from {self._table} "
             f"where {where} order by embedding <#> %s::vector limit %s"
         )
 
+        def found(cursor: Any, query: FloatArray, *, graph: bool) -> list[tuple[Any, ...]]:
+            cursor.execute(f"set local enable_indexscan = {'on' if graph else 'off'}")
+            rows: list[tuple[Any, ...]] = cursor.execute(select, (*values, _text(query), count)).fetchall()
+            return found(cursor, query, graph=False) if graph and len(rows) < count else rows
+
         def ask(cursor: Any) -> list[Nearest]:
-            if approximate:
-                cursor.execute(f"set local hnsw.ef_search = {min(max(count, 40), _MOST_EF)}")
-            else:
-                cursor.execute("set local enable_indexscan = off")
-            found = [cursor.execute(select, (*values, _text(query), count)).fetchall() for query in queries]
-            return [_nearest(rows) for rows in found]
+            cursor.execute(f"set local hnsw.ef_search = {min(max(count, 40), _MOST_EF)}")
+            return [_nearest(found(cursor, query, graph=approximate)) for query in queries]
 
         return self._run(ask)
 
@@ -184,7 +188,9 @@ class PostgresStore:
 
     def _connected(self) -> Any:
         if self._connection is None or self._connection.closed:
-            self._connection = self._driver.connect(self._address, autocommit=True, connect_timeout=5)
+            self._connection = self._driver.connect(
+                self._address, autocommit=True, connect_timeout=5, prepare_threshold=None
+            )  # a prepared search would keep its plan, whether by the graph or exact, for searches of the other kind
         return self._connection
 
     def _drop(self) -> None:
