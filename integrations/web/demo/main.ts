@@ -35,6 +35,12 @@ class Playback {
     return { before: this.frames[0], after: this.frames[1], weight: this.shown };
   }
 
+  /** Whether there are frames to go on with; asks for them otherwise. */
+  get ready(): boolean {
+    this.fill();
+    return this.frames.length > 2;
+  }
+
   private fill(): void {
     for (; this.frames.length + this.asking < AHEAD + 1; this.asking++) {
       const asked = performance.now();
@@ -121,6 +127,8 @@ async function search(text: string): Promise<void> {
 const somewhere = (): { x: number; z: number } => ({ x: (Math.random() - 0.5) * 14, z: (Math.random() - 0.5) * 14 });
 
 async function startCrowd(): Promise<void> {
+  if (character) stage.scene.remove(character.scene);
+  character = null;
   const places = Array.from({ length: CROWD }, (_, i) => ({ x: 2 * (i % 8) - 7, z: 3 * Math.floor(i / 8) - 5, heading: Math.random() * 6 }));
   await remote.call.startCrowd(places);
   const goals = places.map(somewhere);
@@ -161,10 +169,31 @@ function walkTo(x: number, z: number): void {
   void remote.call.walkTo(x, z);
 }
 
+let shown: Pose | null = null;
+
+/** Where the character is, and what it does. */
+const where = (): { x: number; z: number; state: string } => ({ x: shown?.root[0] ?? 0, z: shown?.root[2] ?? 0, state });
+
 let before = performance.now();
+let manual = false; // whether time stands still but for tick()
 function frame(now: number): void {
-  const seconds = Math.min((now - before) / 1000, 0.1);
+  if (!manual) advance(Math.min((now - before) / 1000, 0.1), now);
   before = now;
+  requestAnimationFrame(frame);
+}
+
+/** Let so much time pass, however long the models and the picture take: for recordings. */
+async function tick(seconds: number): Promise<void> {
+  manual = true;
+  for (let left = seconds; left > 1e-6; left -= 1 / FPS) {
+    const playback = crowd?.playback ?? single!;
+    while (!playback.ready) await new Promise((done) => setTimeout(done, 2));
+    advance(Math.min(left, 1 / FPS), performance.now());
+  }
+}
+
+/** Go on by so many seconds, and draw. */
+function advance(seconds: number, now: number): void {
   if (crowd) {
     const found = crowd.playback.advance(seconds);
     for (let i = 0; found && i < CROWD; i++) {
@@ -177,7 +206,7 @@ function frame(now: number): void {
   } else if (single) {
     const found = single.advance(seconds);
     if (found) {
-      const pose: Pose = poseBetween(found.before, found.after, found.weight);
+      const pose: Pose = (shown = poseBetween(found.before, found.after, found.weight));
       if (character) character.pose(pose);
       else figures.pose(0, pose);
       stage.look(pose.root[0], pose.root[2]);
@@ -186,11 +215,10 @@ function frame(now: number): void {
   }
   stage.draw();
   drawn++;
-  requestAnimationFrame(frame);
 }
 
 addEventListener("dragover", (event) => event.preventDefault());
-addEventListener("drop", (event) => {
+document.addEventListener("drop", (event) => {
   event.preventDefault();
   void dropped([...(event.dataTransfer?.files ?? [])]).catch((error: Error) => say(error.message));
 });
@@ -223,7 +251,7 @@ stage.onGround((x, z) => walkTo(x, z));
 
 /** For tests of the page, and for whoever plays with the console. */
 const handle = {
-  remote, stage, files, times, act, become, walkTo, startCrowd,
+  remote, stage, files, times, act, become, walkTo, startCrowd, tick, where,
   get drawn() { return drawn; },
   get state() { return state; },
   get waits() { return (crowd?.playback ?? single)?.waits ?? []; },
