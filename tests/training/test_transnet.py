@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 from pathlib import Path
 
@@ -12,6 +13,7 @@ from motions import random_motion, walking
 from scipy.integrate import quad
 from scipy.spatial.transform import Rotation, Slerp
 
+from motionrt.errors import InvalidInputError
 from motionrt.formats.motion_pack import MotionPack
 from motionrt.metrics.locomotion import foot_skate
 from motionrt.motion import SMPL24, Motion
@@ -216,6 +218,30 @@ def test_training_beats_coasting_on_held_out_walks_and_goes_on_where_it_stopped(
     after = trainer.run()
     assert trainer.step == 40
     assert after["joint_cm"] < 0.8 * before["joint_cm"]
+
+
+@pytest.mark.parametrize("window", [96, 180])
+def test_other_windows_than_the_shipped_one_can_be_trained(window: int) -> None:
+    task = recipe.TransNetTask(corpus(), dataclasses.replace(SETTINGS, window=window), seed=0)
+    batch = task.batch(9)
+    assert batch["frames"].shape == (8, window, 219)
+    assert batch["hidden"].shape == (8, window)
+    assert not batch["hidden"][:, -1].any()
+    found = task.losses(task.model, batch)
+    assert torch.isfinite(found["loss"])
+    assert set(task.validate(task.model.eval())) >= {"joint_cm", "skate"}
+    task.model.eval()
+    with torch.no_grad():
+        frames = task.model(batch["frames"], recipe.whole_gap(8, window))
+    torch.testing.assert_close(frames[:, :SEED], batch["frames"][:, :SEED], atol=0, rtol=0)
+
+
+def test_impossible_windows_and_short_recordings_are_refused() -> None:
+    for window in (70, 122):
+        with pytest.raises(InvalidInputError, match="--window must be a multiple of --patch, at least 80"):
+            recipe.TransNetTask(corpus(), dataclasses.replace(SETTINGS, window=window), seed=0)
+    with pytest.raises(InvalidInputError, match="no recording of a split is 400 frames long"):
+        recipe.TransNetTask(corpus(), dataclasses.replace(SETTINGS, window=400), seed=0)
 
 
 # -- how it is compared

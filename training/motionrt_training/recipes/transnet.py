@@ -21,6 +21,7 @@ import numpy.typing as npt
 import torch
 from torch import Tensor, nn
 
+from motionrt.errors import InvalidInputError
 from motionrt.motion import SMPL24, Motion
 from motionrt.motion.features import ccf219
 from motionrt.motion.features.ccf219 import FPS
@@ -56,6 +57,7 @@ class TransNetSettings:
     ff: int = option(1024, "feed-forward width")
     dropout: float = option(0.05, "dropout rate")
     patch: int = option(4, "frames per token (the paper: 1)")
+    window: int = option(FRAMES, "frames M of a window, a multiple of --patch; what is shipped and run has 120")
     batch: int = option(24, "windows per batch")
     examples: int = option(1024, "windows that the statistics come from")
     grow: int = option(300, "steps in which the gap grows to frames 60..118")
@@ -78,14 +80,15 @@ class Windows(NamedTuple):
     calm: Floats  # (N,) mean speed of the joints, m/s
     starts: Ints  # (W,)
     odds: npt.NDArray[np.float64]  # (W,) cumulated
+    length: int = FRAMES  # M, of a window
 
     def draw(self, rng: np.random.Generator, count: int) -> Ints:
         """First frames of random windows."""
         return self.starts[np.searchsorted(self.odds, rng.random(count) * self.odds[-1])]
 
     def at(self, starts: Ints) -> Tensor:
-        """(B, 120, 219) as recorded."""
-        return torch.from_numpy(self.frames[starts[:, None] + np.arange(FRAMES)])
+        """(B, M, 219) as recorded."""
+        return torch.from_numpy(self.frames[starts[:, None] + np.arange(self.length)])
 
 
 class TransNetTask:
@@ -93,25 +96,29 @@ class TransNetTask:
 
     def __init__(self, recordings: Recordings, settings: TransNetSettings, seed: int) -> None:
         self.settings, self.seed = settings, seed
+        if settings.window < SEED + TAIL or settings.window % settings.patch:
+            raise InvalidInputError(
+                f"--window must be a multiple of --patch, at least {SEED + TAIL}, not {settings.window}"
+            )
         torch.manual_seed(seed)
         size = settings.d, settings.layers, settings.heads, settings.ff, settings.dropout, settings.patch
         self.model: TransNet = TransNet(*size)
-        self.train = windows([motion for _, motion in recordings.split("train")], WARPS)
-        self.val = windows([motion for _, motion in recordings.split("val")], WARPS[:1])
+        self.train = windows([motion for _, motion in recordings.split("train")], WARPS, settings.window)
+        self.val = windows([motion for _, motion in recordings.split("val")], WARPS[:1], settings.window)
         set_statistics(self.model, *self._examples(self.train, np.random.default_rng(seed), settings.examples))
 
     def batch(self, step: int) -> dict[str, Tensor]:
-        """Frames (B, 120, 219) seen from the target and hidden (B, 120)."""
+        """Frames (B, M, 219) seen from the target and hidden (B, M)."""
         s, rng = self.settings, np.random.default_rng((self.seed, step))
         starts = self.train.draw(rng, s.batch)
         frames = mirrored(self.train.at(starts), rng.random(s.batch) < 0.5)
         frames = other_arms(frames, rng.random(s.batch) < s.arms, rng.permutation(s.batch))
         first, last = gaps(rng, s, min(1.0, (step + 1) / s.grow))
         frames = frozen_seed(frames, (self.train.calm[starts + SEED - 1] < CALM) & (rng.random(s.batch) < s.frozen))
-        calm_end = self.train.calm[starts[:, None] + FRAMES - 1 - np.arange(TAIL)].max(1) < CALM
+        calm_end = self.train.calm[starts[:, None] + s.window - 1 - np.arange(TAIL)].max(1) < CALM
         frames = held_end(frames, last, calm_end & (rng.random(s.batch) < s.held))
         late = torch.tensor(float(step >= s.skate_after))
-        return {"frames": to_body(frames)[0], "hidden": hidden_frames(first, last), "late": late}
+        return {"frames": to_body(frames)[0], "hidden": hidden_frames(first, last, s.window), "late": late}
 
     def losses(self, model: nn.Module, batch: Any) -> dict[str, Tensor]:
         """Features, places and velocities of the joints, sliding of standing feet."""
@@ -137,8 +144,7 @@ class TransNetTask:
         """Errors on held-out windows with the whole gap hidden; the score counts both errors."""
         pick = self.val.starts[:: max(1, len(self.val.starts) // 128)]
         frames = to_body(self.val.at(pick))[0]
-        count = len(pick)
-        hidden = hidden_frames(np.full(count, SEED), np.full(count, FRAMES - 1))
+        hidden = whole_gap(len(pick), self.settings.window)
         device = next(model.parameters()).device
         with torch.no_grad():
             found = model(frames.to(device), hidden.to(device)).cpu()
@@ -148,32 +154,40 @@ class TransNetTask:
 
     def _examples(self, source: Windows, rng: np.random.Generator, count: int) -> tuple[Tensor, Tensor]:
         frames = mirrored(source.at(source.draw(rng, count)), rng.random(count) < 0.5)
-        hidden = hidden_frames(np.full(count, SEED), np.full(count, FRAMES - 1))
-        return to_body(frames)[0], hidden
+        return to_body(frames)[0], whole_gap(count, source.length)
 
 
-def windows(motions: Sequence[Motion], warps: Sequence[float]) -> Windows:
-    """Windows of all motions at all speeds; calm beginnings and ends are held for a while, short clips are padded."""
+def windows(motions: Sequence[Motion], warps: Sequence[float], length: int = FRAMES) -> Windows:
+    """Windows of ``length`` frames of all motions at all speeds.
+
+    Calm beginnings and ends are held for a while, short clips are padded.
+
+    Raises:
+        InvalidInputError: no motion is long enough.
+    """
     frames, calm, starts, odds, total = [], [], [], [], 0
     for warp in warps:
         for motion in motions:
-            part, speed = _held(_at_speed(motion, warp))
-            first = np.arange(len(part) - FRAMES + 1)
+            part, speed = _held(_at_speed(motion, warp), length)
+            first = np.arange(len(part) - length + 1)
             if not len(first):
                 continue
             frames.append(part)
             calm.append(speed)
             starts.append(first + total)
-            odds.append(interest(part, first))
+            odds.append(interest(part, first, length))
             total += len(part)
-    return Windows(
-        np.concatenate(frames), np.concatenate(calm), np.concatenate(starts), np.cumsum(np.concatenate(odds))
-    )
+    if not frames:
+        raise InvalidInputError(
+            f"no recording of a split is {length} frames long; TransNet needs some in train and val"
+        )
+    odd = np.cumsum(np.concatenate(odds))
+    return Windows(np.concatenate(frames), np.concatenate(calm), np.concatenate(starts), odd, length)
 
 
-def interest(frames: Floats, first: Ints) -> Floats:
+def interest(frames: Floats, first: Ints, length: int = FRAMES) -> Floats:
     """How often windows of (F, 219) should be drawn: (W,) by what changes in their gap."""
-    a, m, b = (frames[first + k] for k in (SEED - 1, SEED + 29, FRAMES - 1))
+    a, m, b = (frames[first + k] for k in (SEED - 1, (SEED + length) // 2 - 1, length - 1))
     early, late = (np.linalg.norm((y - x)[:, [216, 218]], axis=1) for x, y in ((a, m), (m, b)))
     travel = np.linalg.norm((b - a)[:, [216, 218]], axis=1)
     height = np.abs(b - a)[:, 217] + np.abs(m - a)[:, 217]
@@ -188,11 +202,11 @@ def _at_speed(motion: Motion, warp: float) -> Motion:
     return dataclasses.replace(motion, fps=FPS * warp).resample(FPS)
 
 
-def _held(motion: Motion) -> tuple[Floats, Floats]:
+def _held(motion: Motion, length: int = FRAMES) -> tuple[Floats, Floats]:
     """Features and speeds with the first pose held in front, the last one behind if it is calm."""
     steps = np.linalg.norm(np.diff(motion.positions(), axis=0), axis=2).mean(1) * FPS
     speed = np.append(steps, steps[-1]).astype(np.float32)
-    before = SEED if speed[0] < CALM else max(0, min(SEED - 10, FRAMES - motion.frames))
+    before = SEED if speed[0] < CALM else max(0, min(SEED - 10, length - motion.frames))
     after = TAIL if speed[-1] < CALM else 0
     pad = ((before, after), (0, 0))
     return np.pad(ccf219.encode(motion), pad, mode="edge"), np.pad(speed, pad[0])
@@ -200,21 +214,26 @@ def _held(motion: Motion) -> tuple[Floats, Floats]:
 
 def gaps(rng: np.random.Generator, settings: TransNetSettings, grown: float) -> tuple[Ints, Ints]:
     """First hidden frame and the one after the last of every window; ``grown`` from 0 to 1."""
-    count = settings.batch
-    longest = max(4, round(grown * (FRAMES - 1 - SEED)))
+    count, whole = settings.batch, settings.window
+    longest = max(4, round(grown * (whole - 1 - SEED)))
     first, last = np.full(count, SEED), np.full(count, SEED + longest)
     tail = rng.random(count) < settings.tails
     last = np.where(tail, np.maximum(last - rng.integers(1, TAIL, count), SEED + 4), last)
     short = rng.random(count) < settings.gaps
     length = rng.integers(4, longest + 1, count)
-    elsewhere = rng.integers(EARLIEST, np.maximum(FRAMES - length, EARLIEST + 1))
+    elsewhere = rng.integers(EARLIEST, np.maximum(whole - length, EARLIEST + 1))
     first = np.where(short, elsewhere, first)
-    return first, np.where(short, np.minimum(elsewhere + length, FRAMES - 1), last)
+    return first, np.where(short, np.minimum(elsewhere + length, whole - 1), last)
 
 
-def hidden_frames(first: Ints, last: Ints) -> Tensor:
-    """(B, 120) bool."""
-    time = np.arange(FRAMES)
+def whole_gap(count: int, length: int) -> Tensor:
+    """(B, M) bool: all frames between the seed and the target."""
+    return hidden_frames(np.full(count, SEED), np.full(count, length - 1), length)
+
+
+def hidden_frames(first: Ints, last: Ints, length: int = FRAMES) -> Tensor:
+    """(B, M) bool."""
+    time = np.arange(length)
     return torch.from_numpy((time >= first[:, None]) & (time < last[:, None]))
 
 
@@ -243,7 +262,7 @@ def frozen_seed(frames: Tensor, which: npt.NDArray[np.bool_]) -> Tensor:
 
 def held_end(frames: Tensor, last: Ints, which: npt.NDArray[np.bool_]) -> Tensor:
     """Frames from ``last`` on are the target in the chosen windows."""
-    held = torch.from_numpy((np.arange(FRAMES) >= last[:, None]) & which[:, None])
+    held = torch.from_numpy((np.arange(frames.shape[1]) >= last[:, None]) & which[:, None])
     return torch.where(held[..., None], frames[:, -1:], frames)
 
 
