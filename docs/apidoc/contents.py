@@ -61,6 +61,7 @@ PAGES: dict[str, Page] = {
             "motionrt.locomotion:Generate",
             "motionrt.locomotion:Agent", "motionrt.locomotion:Waypoints", "motionrt.locomotion:PoseSolution",
             "motionrt.locomotion:Crowd", "motionrt.locomotion:Stream", "motionrt.locomotion:Wish",
+            "motionrt.locomotion:around_others",
             "motionrt.locomotion:SemanticCloud", "motionrt.locomotion:load_cloud",
         ),
     ),

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from motionrt.locomotion.actions import Act, Action, Do, Follow, Generate, Stand, Wait, WalkTo
+    from motionrt.locomotion.avoidance import around_others
     from motionrt.locomotion.crowd import Crowd
     from motionrt.locomotion.goal_frame import Goal, canonicalise, uncanonicalise
     from motionrt.locomotion.path import Path, Waypoints
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
 
 _HOMES = {
     "actions": ("Act", "Action", "Do", "Follow", "Generate", "Stand", "Wait", "WalkTo"),
+    "avoidance": ("around_others",),
     "goal_frame": ("Goal", "canonicalise", "uncanonicalise"),
     "path_following": ("Pace",),
     "path": ("Path", "Waypoints"),
@@ -66,6 +68,7 @@ __all__ = [
     "Waypoints",
     "Wish",
     "action_keypoints",
+    "around_others",
     "canonicalise",
     "load_cloud",
     "solve_pose",
