@@ -1,7 +1,7 @@
 """Check what the built distributions hold: python .ci/check_distributions.py SDIST WHEEL WHEEL_BUILT_FROM_THE_SDIST
 
-The wheel holds motionrt alone, the sdist no checkpoint and less than 100 MB, and a wheel built from the sdist is the
-wheel built from the checkout, file for file. Prints what is wrong, a line each; the exit code is then 1.
+The wheel holds motionrt alone, the sdist no checkpoint, either has less than 100 MB, and a wheel built from the sdist
+is the wheel built from the checkout, file for file. Prints what is wrong, a line each; the exit code is then 1.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ import zipfile
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-SDIST_LIMIT = 100_000_000  # bytes
+LIMIT = 100_000_000  # bytes, of either: what package indexes take
 CHECKPOINTS = (".safetensors", ".pt", ".ckpt")
 
 
@@ -29,7 +29,8 @@ def main(argv: Sequence[str]) -> int:
 
 
 def wheel_problems(wheel: Path) -> Iterator[str]:
-    """What of a wheel is neither motionrt nor about it, or is missing."""
+    """What of a wheel is neither motionrt nor about it, or is missing; its size."""
+    yield from too_large(wheel)
     with zipfile.ZipFile(wheel) as archive:
         names = archive.namelist()
     tops = {name.split("/")[0] for name in names}
@@ -46,8 +47,7 @@ def wheel_problems(wheel: Path) -> Iterator[str]:
 
 def sdist_problems(sdist: Path) -> Iterator[str]:
     """What of a source distribution should not be in it; its size."""
-    if sdist.stat().st_size > SDIST_LIMIT:
-        yield f"{sdist.name} has {sdist.stat().st_size / 1e6:.0f} MB, more than {SDIST_LIMIT / 1e6:.0f}"
+    yield from too_large(sdist)
     with tarfile.open(sdist) as archive:
         names = [member.name.split("/", 1)[-1] for member in archive.getmembers()]
     yield from (f"{sdist.name} holds {name}" for name in names if name.endswith(CHECKPOINTS))
@@ -55,6 +55,13 @@ def sdist_problems(sdist: Path) -> Iterator[str]:
     yield from (
         f"{sdist.name} lacks {name}" for name in ("pyproject.toml", "runtime/motionrt/__init__.py") if name not in names
     )
+
+
+def too_large(file: Path) -> Iterator[str]:
+    """Whether a distribution is larger than an index takes."""
+    size = file.stat().st_size
+    if size > LIMIT:
+        yield f"{file.name} has {size / 1e6:.0f} MB, more than {LIMIT / 1e6:.0f}"
 
 
 def differences(wheel: Path, rebuilt: Path) -> Iterator[str]:

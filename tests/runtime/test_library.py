@@ -37,7 +37,7 @@ def test_clips_that_do_what_their_prompts_say_are_written_with_captions_and_even
 
 
 def test_a_prompt_that_no_clip_does_is_left_out_and_said_why(runtime: Runtime, tmp_path: Path) -> None:
-    (made,) = library.make(["walk backwards"], tmp_path, runtime=runtime, tries=2)
+    (made,) = library.make(["do a handstand"], tmp_path, runtime=runtime, tries=2)
     assert made.file is None
     assert made.agreement < library.ACCEPTED
     assert made.reasons
