@@ -1,4 +1,4 @@
-"""The demo page in a real browser: it walks where it is clicked, acts on words, searches, takes a GLB, shows a crowd."""
+"""The demo page in a real browser: walks to clicks, acts on words, searches, takes a GLB, shows a crowd."""
 
 from __future__ import annotations
 
