@@ -29,6 +29,7 @@ AHEAD = 1.0  # metres from a walker to the place that it is led to
 FREE, HELP, MOST = 0.25, 0.05, 0.03  # radians aside that need no help; radians a frame for each beyond, and the most
 SLOWEST = 0.6  # of the speed, in the sharpest turns
 STANDS = 0.05  # m/s: less is standing
+WALKS_FROM = 0.6  # m/s: what is slower is stepped
 
 
 @dataclass
@@ -53,7 +54,7 @@ class Lead:
         return Wish((self.speed * sin(self.way), self.speed * cos(self.way)), self.facing)
 
     def goal(self, place: Place) -> Goal:
-        """As a goal, for a network that knows nothing else."""
+        """As a goal, which every network knows."""
         x, z = place[0] + AHEAD * sin(self.way), place[1] + AHEAD * cos(self.way)
         return Goal(x, z, self.way + self.bends)  # on an arc, whose chord leads there
 
@@ -114,12 +115,12 @@ def towards(goal: Goal, place: Place, facing: float, now: float, pace: float) ->
 def by_stick(velocity: tuple[float, float], facing: float | None, looks: float, now: float) -> Lead | None:
     """The way that a stick wants, for who looks at ``looks`` and goes ``now`` m/s.
 
-    None where nothing is wanted, or what is stepped and not walked: sideways, backwards.
+    None where nothing is wanted, or what is stepped and not walked: sideways, backwards, very slowly.
     """
     wanted = hypot(*velocity)
     way = float(np.arctan2(velocity[0], velocity[1])) if wanted > STANDS else looks
     aside = facing is not None and abs(wrapped(way - facing)) > ASIDE
-    if wanted <= STANDS or aside:
+    if wanted < WALKS_FROM or aside:
         return None if now < STEPS_FROM else Lead(SLOW, looks, looks)
     way = looks + float(np.clip(wrapped(way - looks), -SHARPEST, SHARPEST))
     return Lead(wanted, way, way if facing is None else facing, way - looks)

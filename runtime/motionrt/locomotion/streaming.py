@@ -20,7 +20,7 @@ from motionrt.locomotion.character import MOVING, SEED
 from motionrt.locomotion.character_models import CharacterModels
 from motionrt.locomotion.crowd import FPS, SPEED, Crowd, at_30_fps, takes_wishes, to_motion
 from motionrt.locomotion.goal_frame import Goal, uncanonicalise
-from motionrt.locomotion.leading import ASIDE, STANDS, Lead, by_stick, helped, towards
+from motionrt.locomotion.leading import ASIDE, STANDS, WALKS_FROM, Lead, by_stick, helped, towards
 from motionrt.locomotion.path_following import Pace
 from motionrt.locomotion.stepping import set_off, step_to
 from motionrt.locomotion.transitions import speed_of
@@ -145,8 +145,9 @@ class Stroller:
         if wanted <= STANDS:
             turns = abs(wrapped(looks - facing)) > 2 * CLOSE_TURN
             return self._step(seen, Goal(*place, looks)) if turns or self._walks else self._pause(seen)
-        if stick.facing is not None and abs(wrapped(way - looks)) > ASIDE:
+        if wanted < WALKS_FROM or (stick.facing is not None and abs(wrapped(way - looks)) > ASIDE):
             x, z = place_of(seen)
+            looks = way if stick.facing is None else looks
             goal = Goal(x + ON * velocity[0] / wanted, z + ON * velocity[1] / wanted, looks)
             return self._step(seen, goal, wanted)
         return self._set_off(seen, way)
@@ -156,6 +157,7 @@ class Stroller:
         if abs(wrapped(way - facing_of(seen))) > LOOKS:
             return self._step(seen, Goal(*over_feet(seen), way))
         self._walks = True
+        self._breaks = [0]
         return _rows(set_off(seen, self.models.standing, way))
 
     def _step(self, seen: Motion, goal: Goal, pace: float = np.inf) -> Frames:

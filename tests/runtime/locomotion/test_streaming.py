@@ -137,3 +137,25 @@ def test_random_goals_at_random_times_never_make_it_leap() -> None:
     turn = np.abs(wrapped(np.diff([facing_of(motion) for motion in seen]))) * FPS
     assert speed.max() < 6.0
     assert np.degrees(turn.max()) < 400.0
+
+
+@pytest.mark.parametrize(("velocity", "facing"), [((0.0, -0.7), 0.0), ((0.5, 0.0), 0.0), ((0.0, 0.3), None)])
+def test_backward_sideways_and_slow_sticks_are_stepped_at_their_speed(
+    velocity: tuple[float, float], facing: float | None
+) -> None:
+    walker = stream(FakeCharacterModels(turns_gently), Goal(0, 0), Goal(0, 0))
+    seen = [walker.steer(velocity, facing) for _ in range(120)]
+    way = (roots(seen)[-1] - roots(seen)[59]) * FPS / 60
+    np.testing.assert_allclose(way, velocity, atol=0.12)
+    assert abs(facing_of(seen[-1])) < 0.1
+    ankles = np.concatenate([motion.positions()[:, [7, 8], 1] for motion in seen])
+    assert (ankles.max(axis=0) - ankles[0] > 0.04).all()
+
+
+def test_the_first_step_of_a_walk_is_finished_before_something_else_begins() -> None:
+    walker = stream(FakeCharacterModels(turns_gently), Goal(0, 0), Goal(0, 9))
+    seen = list(islice(walker, 8))  # a foot is in the air
+    seen += [walker.send(Goal(0, 0)), *islice(walker, 59)]
+    ankles = np.concatenate([motion.positions()[:, [7, 8]] for motion in seen])
+    assert (np.linalg.norm(np.diff(ankles, axis=0), axis=-1).max() * FPS) < 6.0
+    assert roots(seen)[-1] == pytest.approx([0, 0], abs=0.03)
