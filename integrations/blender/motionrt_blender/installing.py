@@ -12,6 +12,8 @@ import bpy
 
 PACKAGE = "motionrt"
 OLDEST = (3, 10)
+CARRIED = Path(__file__).parent / "wheel"
+"""Where the add-on's zip may carry a wheel of motionrt; make_extension.py puts it there."""
 
 
 class InstallError(RuntimeError):
@@ -40,6 +42,8 @@ def available() -> bool:
 def install(source: str = PACKAGE) -> None:
     """Install or update the package: a name on PyPI, a wheel, or a folder with the sources.
 
+    By its plain name it is the wheel that the add-on carries, where it carries one.
+
     Raises:
         InstallError: Blender's Python is too old, pip is missing or failed.
     """
@@ -48,11 +52,16 @@ def install(source: str = PACKAGE) -> None:
             f"motionrt needs Python 3.10; this Blender has {sys.version.split()[0]}: use Blender 3.1 or newer"
         )
     folder().mkdir(parents=True, exist_ok=True)
-    _pip("install", "--upgrade", "--no-warn-script-location", "--target", str(folder()), source or PACKAGE)
+    _pip("install", "--upgrade", "--no-warn-script-location", "--target", str(folder()), _found(source))
     add_to_path()
     importlib.invalidate_caches()
     if old := _older_numpy():
         raise InstallError(f"installed, but NumPy {old} was loaded before: restart Blender once")
+
+
+def _found(source: str) -> str:
+    carried = sorted(CARRIED.glob(f"{PACKAGE}-*.whl"))
+    return str(carried[-1]) if carried and source in {"", PACKAGE} else source or PACKAGE
 
 
 def _pip(*arguments: str) -> None:
