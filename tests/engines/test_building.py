@@ -25,6 +25,7 @@ from motionrt.services import search
 
 fsspec = pytest.importorskip("fsspec", reason="the extra cluster is not installed")
 COUNT = 6
+GALLERY = ("hits/gallery.json", "hits/motions-0123456789abcdef.npz")
 
 
 @pytest.fixture
@@ -130,7 +131,7 @@ def test_the_command_line_indexes_into_a_database(
 def test_what_lies_beside_a_file_is_fetched_with_it(tmp_path: Path) -> None:
     files = fsspec.filesystem("memory")
     root = f"/{uuid4().hex}"
-    for name in ("a/x.amc", "a/one.asf", "a/other.bvh", "b/y.gltf", "b/y.bin", "all.asf", ".hidden/z.bvh"):
+    for name in ("a/x.amc", "a/one.asf", "a/other.bvh", "b/y.gltf", "b/y.bin", "all.asf", ".hidden/z.bvh", *GALLERY):
         files.pipe(f"{root}/{name}", name.encode())
     assert set(find_objects(f"memory:/{root}")) == {"a/x.amc", "a/other.bvh", "b/y.gltf"}
     with fetched(f"memory:/{root}", ["a/x.amc", "b/y.gltf"], "all.asf") as folder:

@@ -14,6 +14,7 @@ from motionrt.engines.packages import package
 from motionrt.errors import InvalidInputError, MissingDependencyError, MotionFileNotFoundError
 from motionrt.formats import MOTION_SUFFIXES
 from motionrt.formats.folder import Stamp
+from motionrt.retrieval import GALLERY_FILE
 from motionrt.untrusted.words import shown
 
 _BESIDE = {".amc": ".asf", ".gltf": ".bin"}
@@ -22,7 +23,7 @@ _TIMES = ("mtime", "LastModified", "last_modified", "updated", "created")
 
 
 def find_objects(url: str) -> dict[str, Stamp]:
-    """Size and time of every motion file below a folder, by relative path; hidden files and folders are left out.
+    """Size and time of every motion file below a folder, by relative path; what is hidden, and galleries, are left out.
 
     Where the store tells no time, the file's ETag stands for it.
 
@@ -37,12 +38,14 @@ def find_objects(url: str) -> dict[str, Stamp]:
     files, root = _opened(url)
     if not files.isdir(root):
         raise MotionFileNotFoundError(f"no folder {url}")
-    found = {}
-    for path, told in sorted(files.find(root, detail=True).items()):
-        name = PurePosixPath(path).relative_to(root).as_posix()
-        hidden = any(part.startswith(".") for part in PurePosixPath(name).parts)
-        if not hidden and PurePosixPath(name).suffix.lower() in MOTION_SUFFIXES:
-            found[name] = int(told.get("size") or 0), _time_ns(told)
+    listed = {PurePosixPath(path).relative_to(root): told for path, told in files.find(root, detail=True).items()}
+    galleries = {path.parent for path in listed if path.name == GALLERY_FILE} - {PurePosixPath()}
+    motions = [path for path in sorted(listed) if path.suffix.lower() in MOTION_SUFFIXES and not _hidden(path)]
+    found = {
+        path.as_posix(): (int(listed[path].get("size") or 0), _time_ns(listed[path]))
+        for path in motions
+        if galleries.isdisjoint(path.parents)
+    }
     if not found:
         raise InvalidInputError(f"no motion files ({', '.join(MOTION_SUFFIXES)}) in {url} or below it")
     return found
@@ -70,6 +73,10 @@ def fetched(url: str, names: Iterable[str], asf: str | None = None) -> Iterator[
             target.parent.mkdir(parents=True, exist_ok=True)
             files.get_file(f"{root}/{name}", str(target))
         yield Path(place)
+
+
+def _hidden(path: PurePosixPath) -> bool:
+    return any(part.startswith(".") for part in path.parts)
 
 
 def _needed(files: Any, root: str, names: Iterable[str]) -> set[str]:
