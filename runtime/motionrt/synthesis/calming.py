@@ -1,4 +1,4 @@
-"""Limbs that a text leaves out are calmed: who stands still is still, who waves with one arm waves with that one."""
+"""Limbs do what a text says: who stands still is still, one arm waves where one is named, and punches reach out."""
 
 from __future__ import annotations
 
@@ -14,6 +14,10 @@ from motionrt.text import TextAttributes
 STILL = 0.1  # m/s that hands and feet of whoever stands still may have
 ONE_ARM = 0.55  # speed of the other hand beside that of the one that a text names, at most
 LEAST = 0.15  # part of a motion that is left at least
+THRUSTS = frozenset({"punch", "throw"})  # acts in which an arm is stretched, as it is in recordings of them
+STRETCHED = 0.97  # of the length of an arm
+LARGEST = 3.0  # times as far that a thrust is made, at most
+SMALLEST = 0.02  # metres of a thrust that is worth it
 
 BoolArray = npt.NDArray[np.bool_]
 
@@ -26,12 +30,38 @@ def calmed(features: FloatArray, said: TextAttributes) -> tuple[FloatArray, Bool
     if said.still:
         speed = max(_speed(rows, f"{side}_{joint}") for side in ("left", "right") for joint in ("wrist", "ankle"))
         if speed > STILL:
-            _less(rows, np.arange(ego77.WIDTH - 4), max(LEAST, STILL / speed))
+            _scaled(rows, np.arange(ego77.WIDTH - 4), max(LEAST, STILL / speed))
             rows[:, :3] *= max(LEAST, STILL / speed)
             parts[:] = True
-    elif said.arm in ("left", "right"):
+        return rows, parts
+    if said.arm in ("left", "right"):
         _favour(rows, parts, said.arm)
+    if said.action in THRUSTS:
+        for side in ("left", "right"):
+            if said.arm in (None, "both", side) and _thrust(rows, side):
+                parts[:, PARTS.index(f"{side} arm")] = True
     return rows, parts
+
+
+def _thrust(rows: FloatArray, side: str) -> bool:
+    """Stretch an arm where it reaches out farthest; in place. Whether anything had to be done."""
+    shoulder, elbow, wrist, hand = (_columns(f"{side}_{joint}") for joint in ("shoulder", "elbow", "wrist", "hand"))
+    upper, lower = (float(np.linalg.norm(SMPL24.offsets[SMPL24.index(f"{side}_{end}")])) for end in ("elbow", "wrist"))
+    full = STRETCHED * (upper + lower)
+    away = rows[:, wrist] - rows[:, shoulder]
+    reach = np.maximum(np.linalg.norm(away, axis=1), 1e-3)
+    usual, farthest = float(np.median(reach)), float(reach.max())
+    if farthest >= full or farthest - usual < SMALLEST:
+        return False
+    times = min(LARGEST, (full - usual) / (farthest - usual))
+    farther = np.where(reach > usual, usual + times * (reach - usual), reach)
+    straight = np.clip((farther - reach) / (full - reach), 0, 1)[:, None]
+    moved = away * (farther / reach)[:, None]
+    along = rows[:, shoulder] + moved * (upper / (upper + lower))
+    rows[:, elbow] += (straight * (along - rows[:, elbow])).astype(np.float32)
+    rows[:, wrist] += (moved - away).astype(np.float32)
+    rows[:, hand] += (moved - away).astype(np.float32)
+    return True
 
 
 def _favour(rows: FloatArray, parts: BoolArray, side: str) -> None:
@@ -40,17 +70,21 @@ def _favour(rows: FloatArray, parts: BoolArray, side: str) -> None:
     named, left_out = (_speed(rows, f"{one}_wrist", f"{one}_shoulder") for one in (side, other))
     if left_out <= ONE_ARM * named:
         return
-    shoulder = _columns(f"{other}_shoulder")
-    arm = np.concatenate([_columns(f"{other}_{joint}") for joint in ("elbow", "wrist", "hand")])
-    base = np.tile(rows[:, shoulder], len(arm) // 3)
-    rows[:, arm] -= base
-    _less(rows, arm, max(LEAST, ONE_ARM * named / left_out))
-    rows[:, arm] += base
+    _about_shoulder(rows, other, max(LEAST, ONE_ARM * named / left_out))
     parts[:, PARTS.index(f"{other} arm")] = True
 
 
-def _less(rows: FloatArray, columns: npt.NDArray[np.intp], part: float) -> None:
-    """Bring columns nearer to their means over time; in place."""
+def _about_shoulder(rows: FloatArray, side: str, part: float) -> None:
+    """Scale how an arm moves about its shoulder; in place."""
+    arm = np.concatenate([_columns(f"{side}_{joint}") for joint in ("elbow", "wrist", "hand")])
+    base = np.tile(rows[:, _columns(f"{side}_shoulder")], len(arm) // 3)
+    rows[:, arm] -= base
+    _scaled(rows, arm, part)
+    rows[:, arm] += base
+
+
+def _scaled(rows: FloatArray, columns: npt.NDArray[np.intp], part: float) -> None:
+    """Scale how far columns are from their means over time; in place."""
     mean = rows[:, columns].mean(axis=0)
     rows[:, columns] = mean + part * (rows[:, columns] - mean)
 

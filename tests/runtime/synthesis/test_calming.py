@@ -57,3 +57,16 @@ def test_whoever_stands_still_hardly_moves() -> None:
 def test_texts_that_name_no_arm_change_nothing() -> None:
     rows = waving(0.2, 0.1)
     np.testing.assert_array_equal(calmed(rows, parse_query("a person dances"))[0], rows)
+
+
+def test_a_punch_stretches_the_arm_that_is_named_where_it_reached_out_farthest() -> None:
+    rows = waving(0.1, 0.1)
+    shoulder, wrist = _first("right_shoulder"), _first("right_wrist")
+    found, parts = calmed(rows, parse_query("punch with the right fist"))
+    reach = np.linalg.norm(found[:, wrist : wrist + 3] - found[:, shoulder : shoulder + 3], axis=1)
+    before = np.linalg.norm(rows[:, wrist : wrist + 3] - rows[:, shoulder : shoulder + 3], axis=1)
+    bones = [SMPL24.offsets[SMPL24.index(f"right_{joint}")] for joint in ("elbow", "wrist")]
+    assert reach.max() == pytest.approx(0.97 * np.linalg.norm(bones, axis=1).sum(), abs=1e-3)
+    assert reach.argmax() == before.argmax()
+    assert np.median(reach) == pytest.approx(np.median(before), abs=5e-3)
+    assert parts[0, PARTS.index("right arm")]
