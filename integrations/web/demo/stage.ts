@@ -22,7 +22,7 @@ export class Stage {
     this.ground = new THREE.Mesh(new THREE.PlaneGeometry(120, 120), new THREE.MeshStandardMaterial({ color: "#dfe5ea", roughness: 1 }));
     this.ground.rotation.x = -Math.PI / 2;
     this.ground.receiveShadow = true;
-    const grid = new THREE.GridHelper(120, 120, "#b9c4cf", "#cbd4dc");
+    const grid = new THREE.GridHelper(120, 120, "#93a5b6", "#b4c2cf");
     grid.position.y = 0.008;
     this.marker = new THREE.Mesh(new THREE.RingGeometry(0.16, 0.22, 40), new THREE.MeshBasicMaterial({ color: "#f0a93b" }));
     this.marker.rotation.x = -Math.PI / 2;
