@@ -187,6 +187,7 @@ def test_a_plan_is_drafted_generated_and_written(studio: Callable[[], Page], tmp
     page.fill("Text", "sit down")
     page.wait_text("2. sit down")
     page.click("Place")
+    page.wait_text("click where the pelvis is then")
     page.click_at(*FLOOR)
     page.wait_text("◆ place")
     page.click("Generate the plan")
