@@ -170,6 +170,20 @@ def test_two_windows_do_not_disturb_each_other(studio: Callable[[], Page]) -> No
     wait_until(lambda: frame(two) != moving, 20, "the other window to play on")
 
 
+def click_for(page: Page, name: str, text: str) -> None:
+    """Click a button until the page answers with a text: a page that is busy drawing may miss a click."""
+
+    def answered() -> bool:
+        page.click(name)
+        try:
+            page.wait_text(text, 10)
+        except TimeoutError:
+            return False
+        return True
+
+    wait_until(answered, 90, text)
+
+
 def upload(page: Page, number: int, *files: Path) -> None:
     """Choose files for the ``number``-th upload button of the page, as a user does in the browser's dialogue."""
     root = page.call("DOM.getDocument")["root"]["nodeId"]
@@ -186,12 +200,10 @@ def test_a_plan_is_drafted_generated_and_written(studio: Callable[[], Page], tmp
     page.wait_text("1. walk forward")
     page.fill("Text", "sit down")
     page.wait_text("2. sit down")
-    page.click("Place")
-    page.wait_text("click where the pelvis is then")
+    click_for(page, "Place", "click where the pelvis is then")
     page.click_at(*FLOOR)
     page.wait_text("◆ place")
-    page.click("Generate the plan")
-    page.wait_text("generated in")
+    click_for(page, "Generate the plan", "generated in")
     page.click("Download as plan")
     file = wait_until(lambda: next(tmp_path.glob("*.yaml"), None), 20, "a plan")
     found = wait_until(lambda: file.read_text().count("\n") > 3 and Plan.read(file), 10, "all of it")
@@ -202,8 +214,7 @@ def test_a_plan_is_drafted_generated_and_written(studio: Callable[[], Page], tmp
 def test_a_reload_brings_the_work_back_and_undo_takes_it_back(studio: Callable[[], Page]) -> None:
     page = studio()
     page.tab("Make")
-    page.click("Generate")
-    page.wait_text("generated in")
+    click_for(page, "Generate", "generated in")
     page.tab("Plan")
     page.click("Add text")
     page.wait_text("1. walk forward")
@@ -218,11 +229,9 @@ def test_a_reload_brings_the_work_back_and_undo_takes_it_back(studio: Callable[[
 def test_a_search_leaves_work_on_the_stage(studio: Callable[[], Page]) -> None:
     page = studio()
     page.tab("Make")
-    page.click("Generate")
-    page.wait_text("generated in")
+    click_for(page, "Generate", "generated in")
     page.tab("Search")
-    page.click("Find")
-    page.wait_text("4 hits in")
+    click_for(page, "Find", "4 hits in")
     page.wait_text("rank 1")
     assert "generated in" in page.text()
     page.click("Find")
