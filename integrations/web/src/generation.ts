@@ -1,4 +1,6 @@
 // Text to motion by diffusion in motion space (motionrt.synthesis): the solver, the canvas, and the motion of it.
+import { calm, heightsOf } from "./calming";
+import start from "./data/start.json";
 import data from "./data/words.json";
 import { checkedNumber, InvalidInputError } from "./errors";
 import { between, decode, FPS, smoothed, WIDTH } from "./ego77";
@@ -9,14 +11,15 @@ import { Random } from "./random";
 import { numbers, type Sessions } from "./sessions";
 import { JOINTS, PARTS } from "./skeleton";
 import type { TextEncoder, TokenFeatures } from "./text";
-import { brought, type Way, wayOf } from "./ways";
-import { parseQuery, slotsOf, targetsOf } from "./words";
+import { brought, wayOf } from "./ways";
+import { parseQuery, type Said, slotsOf, targetsOf } from "./words";
 
 const READ = 24; // tokens of a text that the network has learnt to read
 const [HIGHEST, LOWEST, BEND] = [60, 0.15, 7]; // noise levels (Karras et al. 2022, eq. 5)
 const [POSE_GUIDANCE, TURN_GUIDANCE] = [5, 1.3];
 const [LATE, GUIDED] = [2.5, 2]; // noise levels below which the way is corrected, and down to which texts are guided
-const ROOT = 4; // columns of the root, which the part "global" holds
+const OWNERS: readonly number[] = start.owners; // of every column the part that it belongs to
+const GLOBAL = PARTS.indexOf("global");
 const [NETWORK, OVERLAP] = [200, 5]; // frames at 20 fps: that the network sees, over which texts pass into each other
 
 export interface Sampling {
@@ -45,7 +48,7 @@ export interface Line {
 }
 
 interface Piece {
-  words: { features: TokenFeatures; slots: number[]; numbers: Float32Array; known: boolean[]; way: Way | null };
+  words: { features: TokenFeatures; slots: number[]; numbers: Float32Array; known: boolean[]; said: Said };
   first: number;
   weight: Float32Array; // of its frames
 }
@@ -87,7 +90,7 @@ export class Generator {
       const said = parseQuery(line.text);
       const { tokens, features } = given ?? (await this.text.features(line.text));
       const read = Math.min(tokens, READ);
-      const words = { features: { tokens: read, features: features.slice(0, read * 384) }, slots: slotsOf(said), ...targetsOf(said, line.seconds), way: wayOf(said, line.seconds) };
+      const words = { features: { tokens: read, features: features.slice(0, read * 384) }, slots: slotsOf(said), ...targetsOf(said, line.seconds), said };
       pieces.push({ words, first: spans[i][0], weight: weights[i].map((value, f) => value / total[spans[i][0] + f]) });
     }
     return { pieces, frames };
@@ -104,12 +107,13 @@ export class Generator {
     const levels = noiseLevels(steps);
     let state: Float32Array = noise.map((value) => Math.fround(value * temperature) * levels[0]);
     let before: Float32Array | null = null;
-    let held = nothing(frames);
+    const plan = planned(pieces, frames);
+    let held = plan;
     for (let k = 0; k < steps; k++) {
       const { clean, raw } = await this.estimate(pieces, held, state, levels[k], levels[k] >= GUIDED ? guidance : PLAIN);
-      if (levels[k] < LATE) held = steered(raw, pieces);
+      if (levels[k] < LATE) held = over(steered(raw, pieces), plan);
       sampling.onStep?.((k + 1) / steps);
-      if (k === steps - 1) return kept(smoothed(raw), pieces);
+      if (k === steps - 1) return kept(smoothed(raw), pieces, plan);
       const step = Math.log(levels[k] / levels[k + 1]);
       const share: number = before ? step / (2 * Math.log(levels[k - 1] / levels[k])) : 0;
       const ratio = levels[k + 1] / levels[k];
@@ -122,7 +126,7 @@ export class Generator {
 
   /** Estimates of the whole canvas, normalised and raw, put together of those of its pieces. */
   private async estimate(pieces: Piece[], held: Held, state: Float32Array, level: number, guidance: Float32Array): Promise<{ clean: Float32Array; raw: Float32Array }> {
-    const frames = held.frames.length;
+    const frames = held.motion.length / WIDTH;
     const [clean, raw, share] = [new Float32Array(frames * WIDTH), new Float32Array(frames * WIDTH), new Float32Array(frames)];
     for (const { words, first, weight } of pieces) {
       const count = weight.length;
@@ -139,7 +143,7 @@ export class Generator {
           numbers: this.sessions.float(words.numbers, [1, data.targets.length]),
           known: this.sessions.flags(words.known, [1, data.targets.length]),
           held: this.sessions.float(held.motion.slice(first * WIDTH, (first + count) * WIDTH), [1, count, WIDTH]),
-          holding: this.sessions.flags(holding(held, first, count), [1, count, PARTS.length]),
+          holding: this.sessions.flags(held.parts.slice(first * PARTS.length, (first + count) * PARTS.length), [1, count, PARTS.length]),
           guidance: this.sessions.float(guidance, [1, 2]),
         },
         ["clean", "motion"],
@@ -163,43 +167,59 @@ export class Generator {
 
 const PLAIN = Float32Array.of(1, 1);
 
-/** Motions whose root is kept in some frames. */
+/** What of a motion is kept: features F x 77, and F x 6 which parts of which frames. */
 interface Held {
   motion: Float32Array;
-  frames: boolean[];
+  parts: Uint8Array;
 }
 
-const nothing = (frames: number): Held => ({ motion: new Float32Array(frames * WIDTH), frames: new Array<boolean>(frames).fill(false) });
+const nothing = (frames: number): Held => ({ motion: new Float32Array(frames * WIDTH), parts: new Uint8Array(frames * PARTS.length) });
+const holds = ({ parts }: Held, f: number, column: number): boolean => parts[f * PARTS.length + OWNERS[column]] > 0;
 
-/** Which parts of the frames of a piece are held: the last, "global", or none. */
-function holding(held: Held, first: number, count: number): Uint8Array {
-  return Uint8Array.from({ length: count * PARTS.length }, (_, i) =>
-    Number(i % PARTS.length === PARTS.length - 1 && held.frames[first + Math.floor(i / PARTS.length)]),
-  );
+/** Both; where both keep something, the first counts. */
+function over(first: Held, second: Held): Held {
+  const motion = first.motion.map((value, i) => (holds(first, Math.floor(i / WIDTH), i % WIDTH) ? value : second.motion[i]));
+  return { motion, parts: first.parts.map((flag, i) => flag | second.parts[i]) };
 }
 
-/** What must be otherwise about a motion so that it goes where the texts of its pieces say. */
+/** The frames whose root belongs to each piece, and what its text says. */
+function spans(pieces: Piece[]): { from: number; to: number; said: Said }[] {
+  return pieces.flatMap(({ words, first, weight }) => {
+    const own = Array.from(weight.keys()).filter((f) => weight[f] > 0.5);
+    return own.length ? [{ from: first + own[0], to: first + own[own.length - 1] + 1, said: words.said }] : [];
+  });
+}
+
+/** The root of texts that go down or up, on the spot. */
+function planned(pieces: Piece[], frames: number): Held {
+  const held = nothing(frames);
+  for (const { from, to, said } of spans(pieces))
+    heightsOf(said, to - from)?.forEach((height, i) => {
+      held.motion[(from + i) * WIDTH + 3] = height;
+      held.parts[(from + i) * PARTS.length + GLOBAL] = 1;
+    });
+  return held;
+}
+
+/** What must be otherwise about a motion so that it does what the texts of its pieces say. */
 function steered(raw: Float32Array, pieces: Piece[]): Held {
   const held = nothing(raw.length / WIDTH);
-  for (const { words, first, weight } of pieces) {
-    const own = Array.from(weight.keys()).filter((f) => weight[f] > 0.5);
-    if (!own.length || !words.way) continue;
-    const [from, to] = [first + own[0], first + own[own.length - 1] + 1];
-    const found = brought(raw.slice(from * WIDTH, to * WIDTH), words.way);
-    if (!found) continue;
-    held.motion.set(found, from * WIDTH);
-    held.frames.fill(true, from, to);
+  for (const { from, to, said } of spans(pieces)) {
+    const rows = raw.slice(from * WIDTH, to * WIDTH);
+    const parts = calm(rows, said);
+    const way = wayOf(said, (to - from) / FPS);
+    const found = way && brought(rows, way);
+    if (found) parts[GLOBAL] = true;
+    held.motion.set(found ?? rows, from * WIDTH);
+    for (let f = from; f < to; f++) held.parts.set(parts.map(Number), f * PARTS.length);
   }
   return held;
 }
 
-/** The motion with the root that its texts ask for. */
-function kept(raw: Float32Array, pieces: Piece[]): Float32Array {
-  const { motion, frames } = steered(raw, pieces);
-  frames.forEach((holds, f) => {
-    if (holds) raw.set(motion.subarray(f * WIDTH, f * WIDTH + ROOT), f * WIDTH);
-  });
-  return raw;
+/** The motion with all that its texts ask for. */
+function kept(raw: Float32Array, pieces: Piece[], plan: Held): Float32Array {
+  const held = over(steered(raw, pieces), plan);
+  return raw.map((value, i) => (holds(held, Math.floor(i / WIDTH), i % WIDTH) ? held.motion[i] : value));
 }
 
 /** Features at 20 fps to a motion at 30 fps. */

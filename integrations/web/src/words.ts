@@ -71,7 +71,7 @@ export function parseQuery(text: string): Said {
   for (const [pattern, meaning] of lex.NEGATED_MEANING as [string, Said][]) if (has(whole, pattern)) Object.assign(said, meaning);
   const words = without(without(whole, [lex.NEGATION]), lex.NO_SIDES);
   const actions = Object.keys(lex.ACTIONS).filter((name) => has(words, lex.ACTIONS[name]));
-  const found: Said = { action: actions[0] ?? null };
+  const found: Said = { text, action: actions[0] ?? null };
   found.actions = actions
     .map((name) => ({ name, place: matches(words, lex.ACTIONS[name])[0]?.start ?? words.length }))
     .sort((a, b) => a.place - b.place)
