@@ -187,7 +187,12 @@ class Sources:
         return Sentences(sentence_ids(self.tokenizer_file))
 
     def source(self, name: str) -> Source:
-        """The source of the graph called `name`; KeyError for any other name."""
+        """The source of the graph called `name`; KeyError for any other name.
+
+        Raises:
+            MissingCheckpointsError: the network of this graph is not in the folder.
+        """
+        self.check([name])
         makers: dict[str, Callable[[], Source]] = {
             specs.TMR_TEXT.name: self._text,
             specs.TMR_STUDENT.name: self._student,
