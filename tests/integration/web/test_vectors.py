@@ -21,28 +21,32 @@ MODELS = ("tmr_text", "walknet", "motion_denoiser")
 
 
 @pytest.fixture(scope="module")
-def vectors(site: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+def portable_files(site: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     from motionrt_export.portable import portable
     from motionrt_export.sources import Sources
-    from motionrt_export.vectors import write_vectors
 
-    folder = tmp_path_factory.mktemp("portable")
+    folder = tmp_path_factory.mktemp("portable_files")
     for name in MODELS:
-        (folder / f"{name}.portable.onnx").write_bytes(
-            portable(Sources(ROOT / "models").source(name)).SerializeToString()
-        )
-    return write_vectors(tmp_path_factory.mktemp("vectors"), folder)
+        model = portable(Sources(ROOT / "models").source(name))
+        (folder / f"{name}.portable.onnx").write_bytes(model.SerializeToString())
+    return folder
 
 
 @pytest.fixture(scope="module")
-def float_site(site: Path, vectors: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+def vectors(portable_files: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    from motionrt_export.vectors import write_vectors
+
+    return write_vectors(tmp_path_factory.mktemp("vectors"), portable_files)
+
+
+@pytest.fixture(scope="module")
+def float_site(site: Path, portable_files: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The same folder with the portable files."""
-    folder = next(path for path in vectors.parents[1].iterdir() if path.name.startswith("portable"))
     out = tmp_path_factory.mktemp("float")
     (out / "tokenizer.json").symlink_to(site / "tokenizer.json")
     models = {name: {"file": f"{name}.portable.onnx"} for name in MODELS}
     for entry in models.values():
-        (out / entry["file"]).symlink_to(folder / entry["file"])
+        (out / entry["file"]).symlink_to(portable_files / entry["file"])
     (out / "models.json").write_text(json.dumps({"version": "float", "models": models, "galleries": []}))
     return out
 
