@@ -24,10 +24,14 @@ class Server:
     def restart(self) -> None:
         """As after a crash: connections break, and what was committed is recovered."""
         sockets = self.address.partition("host=")[2]
-        control = [str(self._programs / "pg_ctl"), "-D", str(self._folder), "-w", "-t", "120"]
-        options = ["-o", f'-h "" -k {sockets}', "-l", str(self._folder / "log")]
-        for command in ([*control, "-m", "immediate", "stop"], [*control, *options, "start"]):
-            subprocess.run(command, check=True, stdout=subprocess.DEVNULL, user=self._server.system_user)
+        self._control("-m", "immediate", "stop")
+        self._control("-o", f'-h "" -k {sockets}', "-l", str(self._folder / "log"), "start")
 
     def stop(self) -> None:
+        """End it, whoever started it last."""
+        self._control("-m", "immediate", "stop", must=False)
         self._server.cleanup()
+
+    def _control(self, *words: str, must: bool = True) -> None:
+        command = [str(self._programs / "pg_ctl"), "-D", str(self._folder), "-w", "-t", "120", *words]
+        subprocess.run(command, check=must, stdout=subprocess.DEVNULL, user=self._server.system_user)
