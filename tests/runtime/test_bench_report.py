@@ -158,7 +158,7 @@ def test_a_picture_of_nothing_is_refused(tmp_path: Path) -> None:
 
 def test_a_picture_without_matplotlib_says_what_to_install(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
-    with pytest.raises(MissingDependencyError, match=r"pip install 'motionrt\[plot\]'"):
+    with pytest.raises(MissingDependencyError, match=r'pip install "motionrt\[plot\]"'):
         plot.save_plot(FOUND, tmp_path / "bench.png")
 
 

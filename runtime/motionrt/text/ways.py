@@ -19,7 +19,7 @@ _STRAIGHT: Range = (-12, 12)
 _PACES: dict[str | None, Range] = {  # m/s
     None: (0.45, 9.0), "slow": (0.3, 0.8), "walk": (0.75, 1.6), "jog": (1.5, 3.0), "run": (2.2, 6.0),
 }  # fmt: skip
-_BACKWARD, _SIDEWAYS = 0.4, 0.25  # least m/s
+_BACKWARD, _SIDEWAYS, _STAIRS = 0.4, 0.25, 0.3  # least m/s
 _STEP, _STAY = 0.35, 0.2  # metres of one step to a side; metres that whoever stays may drift
 _SIDES = ("left", "right")
 _ASIDE = 0.4  # metres aside for every metre of the way, at most
@@ -76,7 +76,7 @@ def _places(said: TextAttributes, seconds: float) -> tuple[Range | None, Range |
     if said.travel == "forward" and said.path in (None, "straight") and said.turn in (None, "none"):
         low, high = _PACES.get(said.speed, _PACES[None])
         return (low * seconds, high * seconds), (-_ASIDE * low * seconds, _ASIDE * low * seconds)
-    return None, None
+    return ((_STAIRS * seconds, 9.0), None) if said.action == "stairs" and said.travel is None else (None, None)
 
 
 def heights_of_text(said: TextAttributes, times: npt.ArrayLike) -> FloatArray | None:

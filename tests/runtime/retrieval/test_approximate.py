@@ -180,7 +180,7 @@ def test_without_the_package_the_error_says_what_to_install(monkeypatch: pytest.
     monkeypatch.setitem(sys.modules, "faiss", None)
     monkeypatch.setattr(approximate, "WORTHWHILE_FROM", 100)
     gallery = gallery_of(clustered(COUNT, WIDTH))
-    with pytest.raises(MissingDependencyError, match=r"pip install 'motionrt\[ann\]'"):
+    with pytest.raises(MissingDependencyError, match=r'pip install "motionrt\[ann\]"'):
         gallery.search(gallery.embeddings[0], approximate=True)
     assert gallery.search(gallery.embeddings[0], 1)[0].id == "00000"
 

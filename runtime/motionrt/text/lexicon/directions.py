@@ -19,7 +19,7 @@ TURNS = (  # the first that matches
     (
         "around",
         (
-            r"(?:turn|spin|swing|whirl|pivot|twist|flip|wheel|rotat|whip|come"
+            r"(?:turn|swing|pivot|twist|flip|wheel|rotat|whip|come"
             r"|face)\w*(?: \w+){0,2} (?:a?round|about)\b(?! (?:the|a|an|his|her|in circles|and round"
             r"|and around)\b)|about ?(?:face|turn)\b|u ?turn|\b180\b|half ?(?:a )?(?:turn|circle|rotation"
             r"|spin)|half ?way (?:a?round)|revers\w+ (?:direction|course)|fac\w+ the (?:other"
