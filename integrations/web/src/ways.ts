@@ -19,7 +19,7 @@ const BENDS: Record<string, Range> = { curve: [70, 190], circle: [240, 420], spi
 const STRAIGHT: Range = [-12, 12];
 const ANY_PACE: Range = [0.45, 9]; // m/s, as all of these
 const PACES: Record<string, Range> = { slow: [0.3, 0.8], walk: [0.75, 1.6], jog: [1.5, 3], run: [2.2, 6] };
-const [BACKWARD, SIDEWAYS] = [0.4, 0.25]; // least m/s
+const [BACKWARD, SIDEWAYS, STAIRS] = [0.4, 0.25, 0.3]; // least m/s
 const [STEP, STAY, ASIDE] = [0.35, 0.2, 0.4]; // metres of a step to a side; that whoever stays may drift; aside for each metre
 const [TURNED, GONE] = [Math.PI / 180, 0.02]; // what is not worth a correction, radians and metres
 
@@ -56,7 +56,7 @@ function places(said: Said, seconds: number): [Range | null, Range | null] {
     const [low, high] = PACES[said.speed] ?? ANY_PACE;
     return [[low * seconds, high * seconds], [-ASIDE * low * seconds, ASIDE * low * seconds]];
   }
-  return [null, null];
+  return said.action === "stairs" && !said.travel ? [[STAIRS * seconds, 9], null] : [null, null];
 }
 
 /** Features F x 77 whose turn and way are in their ranges; null where they are already. */
