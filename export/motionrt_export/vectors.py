@@ -106,7 +106,7 @@ def write_vectors(out: Path, portable: Path, count: int = 200) -> Path:
     sessions = FloatSessions(portable)
     said = texts(count)
     tokenizer = load_tokenizer(sessions)
-    np.save(out / "embeddings.npy", TextMotionModel(sessions).embed_text(said[:EMBEDDED]))
+    np.save(out / "embeddings.npy", TextMotionModel(sessions, text_tower="full").embed_text(said[:EMBEDDED]))
     _walk(out, sessions)
     found = {
         "version": 1,
