@@ -8,6 +8,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -83,6 +84,8 @@ def serve_and_stop(text: str, place: Path) -> None:
         env=shell_environment(place),
         stderr=subprocess.PIPE,
         text=True,
+        # Ctrl-C is ignored where tests run in the background
+        preexec_fn=partial(signal.signal, signal.SIGINT, signal.SIG_DFL),  # noqa: PLW1509
     )
     assert process.stderr is not None
     try:

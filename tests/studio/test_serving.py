@@ -8,6 +8,7 @@ import socket
 import subprocess
 import sys
 import urllib.request
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -17,7 +18,9 @@ from motionrt.cli import main
 
 def test_ctrl_c_ends_the_server_cleanly(viser: None, walk_file: Path) -> None:
     command = [sys.executable, "-m", "motionrt", "view", str(walk_file), "--no-browser", "--port", "0"]
-    running = subprocess.Popen(command, stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+    # Ctrl-C is ignored where tests run in the background
+    at_start = partial(signal.signal, signal.SIGINT, signal.SIG_DFL)
+    running = subprocess.Popen(command, stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True, preexec_fn=at_start)  # noqa: PLW1509
     try:
         assert running.stderr is not None
         url = running.stderr.readline().split()[0]
