@@ -5,6 +5,7 @@ import data from "./data/words.json";
 import { checkedNumber, InvalidInputError } from "./errors";
 import { between, decode, FPS, smoothed, WIDTH } from "./ego77";
 import { lockFeet } from "./feet";
+import { carried, shareOf } from "./footing";
 import { Motion } from "./motion";
 import { fromPositions } from "./positions";
 import { Random } from "./random";
@@ -205,8 +206,13 @@ function planned(pieces: Piece[], frames: number): Held {
 function steered(raw: Float32Array, pieces: Piece[]): Held {
   const held = nothing(raw.length / WIDTH);
   for (const { from, to, said } of spans(pieces)) {
-    const rows = raw.slice(from * WIDTH, to * WIDTH);
+    let rows: Float32Array = raw.slice(from * WIDTH, to * WIDTH);
     const parts = calm(rows, said);
+    const share = to - from > 1 ? shareOf(said) : 0;
+    if (share) {
+      rows = carried(rows, share);
+      parts[GLOBAL] = true;
+    }
     const way = wayOf(said, (to - from) / FPS);
     const found = way && brought(rows, way);
     if (found) parts[GLOBAL] = true;

@@ -16,6 +16,7 @@ from motionrt.motion.body_parts import PARTS
 from motionrt.motion.features import ego77
 from motionrt.synthesis.calming import calmed
 from motionrt.synthesis.canvas import Held, Piece
+from motionrt.synthesis.footing import carried, share_of
 from motionrt.text import TextAttributes, heights_of_text, way_of_text
 from motionrt.text.ways import Range, Way
 
@@ -40,12 +41,14 @@ def steered(features: FloatArray, pieces: Sequence[Piece]) -> Held:
     """What must be otherwise about a motion ``(F, 77)`` so that it does what the texts of its pieces say."""
     held = Held.nothing(len(features))
     for span, said in _spans(pieces):
-        rows = features[span]
-        calm, parts = calmed(rows, said)
-        held.motion[span], held.parts[span] = calm, parts
-        found = brought(calm, way_of_text(said, len(rows) / ego77.FPS))
+        rows, parts = calmed(features[span], said)
+        share = share_of(said) if len(rows) > 1 else 0.0
+        if share:
+            rows, parts[:, GLOBAL] = carried(rows, share), True
+        found = brought(rows, way_of_text(said, len(rows) / ego77.FPS))
         if found is not None:
-            held.motion[span], held.parts[span, GLOBAL] = found, True
+            rows, parts[:, GLOBAL] = found, True
+        held.motion[span], held.parts[span] = rows, parts
     return held
 
 
