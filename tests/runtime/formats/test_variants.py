@@ -18,6 +18,7 @@ from retarget_rigs import Z_UP, named, person, renamed, rig
 from rig_files import ROTATION_ORDERS, bvh_places, write_bvh_rig, write_glb_rig
 from scipy.spatial.transform import Rotation
 
+from motionrt.errors import RigError
 from motionrt.formats import load_motion
 from motionrt.motion import SMPL24
 from motionrt.rigs import RigClip
@@ -147,7 +148,11 @@ def check(variant: Variant, suffix: str) -> None:
     truth = limbs(places_of(TRUTH))
     with tempfile.TemporaryDirectory() as place, warnings.catch_warnings():
         warnings.simplefilter("error")
-        motion = load_motion(variant.write(Path(place), suffix))
+        try:
+            motion = load_motion(variant.write(Path(place), suffix))
+        except RigError:  # joints without names among others that look like limbs: refused, never guessed
+            assert (variant.convention, variant.extras is None) == ("numbers", False)
+            return
         assert motion.frames == TRUTH.frames
         assert motion.fps == pytest.approx(TRUTH.fps, rel=1e-4)
         found = limbs(places_of(motion))

@@ -161,7 +161,7 @@ def test_without_trimesh_the_error_names_the_extra(tmp_path: Path, monkeypatch: 
         raise ImportError(name)
 
     monkeypatch.setattr(importlib.import_module("motionrt.locomotion.scene.optional"), "import_module", missing)
-    with pytest.raises(SceneError, match=r"pip install motionrt\[scene\]"):
+    with pytest.raises(SceneError, match=r'pip install "motionrt\[scene\]"'):
         Scene.open(tmp_path / "room.obj")
 
 
