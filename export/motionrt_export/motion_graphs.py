@@ -15,7 +15,7 @@ from motionrt_training.networks.transnet import FRAMES as WINDOW
 from motionrt_training.networks.transnet import GOAL, PELVIS, SEED, TIME, TransNet, smoothed
 from motionrt_training.networks.walknet import FRAMES as HISTORY
 from motionrt_training.networks.walknet import GOAL as AIM
-from motionrt_training.networks.walknet import WalkNet
+from motionrt_training.networks.walknet import WISHES, WalkNet, with_wishes
 
 POSES = 3
 """Poses that TransNet sees of every frame: the filled one, and the visible ones before and behind it."""
@@ -104,6 +104,7 @@ class WalkNetGraph(nn.Module):
 
     def __init__(self, source: WalkNet) -> None:
         super().__init__()
+        source = source if source.wishes else with_wishes(source)
         order = torch.tensor(ORDER)
         columns = torch.cat((order, WIDTH + order))
         self.changes = constant(changes(HISTORY))
@@ -112,20 +113,21 @@ class WalkNetGraph(nn.Module):
         self.change_rate = constant(moving / source.rate_std[order])
         self.moving, self.resting = constant(moving), constant((source.pose_mean * source.still)[order])
         scale = source.change_std[0, order] * moving
-        self.body = Body(source.body, torch.arange(HISTORY), columns, AIM + 1, order, scale, first=1, frames=1)
+        self.body = Body(source.body, torch.arange(HISTORY), columns, AIM + 1 + WISHES, order, scale, first=1, frames=1)
 
-    def forward(self, frames: Tensor, speed: Tensor) -> Tensor:
-        """(B, 30, 219), (B,) -> (B, 219)."""
+    def forward(self, frames: Tensor, speed: Tensor, wish: Tensor) -> Tensor:
+        """(B, 30, 219), (B,), (B, 8) -> (B, 219)."""
         frames = ordered(frames)
         body = Standing.of(frames[:, -1:])
-        return in_columns(self.step(frames, body, body.goal(), speed))[:, 0]
+        aim = torch.cat((body.goal(), speed[:, None] - 1.0), dim=1) * (1.0 - wish[:, :1])
+        return in_columns(self.step(frames, body, torch.cat((aim, body.wish(wish)), dim=1)))[:, 0]
 
-    def step(self, frames: Tensor, body: Standing, goal: Tensor, speed: Tensor) -> Tensor:
-        """Frames (B, 30, 219) in `ORDER`, the last one's body, the goal as it sees it (B, 7) -> (B, 1, 219)."""
+    def step(self, frames: Tensor, body: Standing, aim: Tensor) -> Tensor:
+        """Frames (B, 30, 219) in `ORDER`, the last one's body, what it is told (B, 16) -> (B, 1, 219)."""
         local = seen(frames, body)
         changes = self.changes @ local  # the matrix takes differences, exactly
         inputs = joined((local - self.mean) * self.rate, changes * self.change_rate)
-        change = self.body(inputs, torch.cat((goal, speed[:, None] - 1.0), dim=1))
+        change = self.body(inputs, aim)
         return unseen(local[:, -1:] * self.moving + self.resting + change, body)
 
 

@@ -10,7 +10,7 @@ import torch
 from torch import Tensor
 
 from motionrt_export.motion_graphs import WalkNetGraph
-from motionrt_export.specs import LATENT_DENOISER, MOTION_DENOISER
+from motionrt_export.specs import LATENT_DENOISER, MOTION_DENOISER, WALKNET
 from motionrt_training.networks.actor import Distribution
 from motionrt_training.networks.latent_denoiser import LatentDenoiser
 from motionrt_training.networks.minilm import MiniLM, mean_pooled
@@ -20,7 +20,7 @@ from motionrt_training.networks.student import TextStudent
 from motionrt_training.networks.temos import Temos
 from motionrt_training.networks.tmr import TMR
 from motionrt_training.networks.transnet import TransNet
-from motionrt_training.networks.walknet import WalkNet
+from motionrt_training.networks.walknet import WalkNet, with_wishes
 
 Arrays = Mapping[str, np.ndarray[Any, Any]]
 Reference = Callable[[Arrays], dict[str, np.ndarray[Any, Any]]]
@@ -59,13 +59,18 @@ def decoder_reference(model: TMR) -> Reference:
 
 def walk_reference(model: WalkNet) -> Reference:
     """The first frame that is predicted."""
-    return _reference(lambda frames, speed: {"next": model(frames, speed)[:, 0]}, "frames", "speed")
+    model = model if model.wishes else with_wishes(model)
+    return _reference(
+        lambda frames, speed, wish: {"next": model(frames, speed, wish)[:, 0]}, *(t.name for t in WALKNET.inputs)
+    )
 
 
 def step_reference(model: WalkNet) -> Reference:
     """The same at half the cost, for inputs: the module that is exported."""
     graph = WalkNetGraph(model)
-    return _reference(lambda frames, speed: {"next": graph(frames, speed)}, "frames", "speed")
+    return _reference(
+        lambda frames, speed, wish: {"next": graph(frames, speed, wish)}, *(t.name for t in WALKNET.inputs)
+    )
 
 
 def transition_reference(model: TransNet) -> Reference:

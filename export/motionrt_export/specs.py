@@ -133,11 +133,16 @@ TMR_DECODER = GraphSpec("tmr_decoder", (_LATENT, _FRAME_MASK), (_MOTION,), "fram
 
 _SEEN = "ccf219 frames at 30 fps"
 _NEXT = "the frame after the last one, seen from the goal; rotations to be projected to SO(3)"
+_WISH = (
+    "1 and a velocity (x, z) that takes the place of the goal, 1 and a facing (x, z) of length 1, 1 and the speed to "
+    "arrive with, as seen from the goal; zeros where nothing is wished"
+)
 WALKNET = GraphSpec(
     "walknet",
     (
         TensorSpec("frames", "float32", ("batch", 30, 219), "1, m", f"the last {_SEEN}, seen from the goal"),
         TensorSpec("speed", "float32", ("batch",), "m/s", "how fast to walk"),
+        TensorSpec("wish", "float32", ("batch", 8), "1, m/s", _WISH),
     ),
     (TensorSpec("next", "float32", ("batch", 219), "1, m", _NEXT),),
 )

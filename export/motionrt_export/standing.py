@@ -7,7 +7,7 @@ from typing import NamedTuple
 import torch
 from torch import Tensor
 
-from motionrt_training.networks.walknet import goal_features
+from motionrt_training.networks.walknet import goal_features, turned_wish
 
 TURNING = 4  # vectors of a frame that turn with it: three columns of the pelvis, and the root
 _X, _Y, _Z = ([*range(3 * axis, 3 * axis + 3), 216 + axis] for axis in range(3))
@@ -46,6 +46,10 @@ class Standing(NamedTuple):
     def turn(self) -> Standing:
         """The heading alone."""
         return self._replace(x=0.0, z=0.0)
+
+    def wish(self, wish: Tensor) -> Tensor:
+        """What is wished (B, 8), as it is seen from here."""
+        return turned_wish(wish, torch.cat((self.cos, self.sin), dim=2)[:, 0])
 
     def goal(self) -> Tensor:
         """The origin as it is seen from here, (B, 7)."""

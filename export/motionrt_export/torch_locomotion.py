@@ -41,8 +41,8 @@ def torch_walk(folder: Path) -> NextFrame:
     model = released(WalkNet, folder)
 
     @torch.inference_mode()
-    def step(frames: Array, speed: Array) -> Array:
-        return numpy(model(tensor(frames), tensor(speed))[:, 0])
+    def step(*told: Array) -> Array:
+        return numpy(model(*(tensor(values) for values in told))[:, 0])
 
     return step
 

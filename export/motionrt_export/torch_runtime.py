@@ -17,6 +17,7 @@ from motionrt_export import references
 from motionrt_export.calibration import sentence_ids
 from motionrt_export.sources import Sources
 from motionrt_export.torch_generation import LoadedGenerator
+from motionrt_training.networks.walknet import WISHES
 
 
 class TorchRuntime(Runtime):
@@ -47,7 +48,13 @@ class TorchPlayers(OnnxCharacterModels):
     def walk(self) -> Any:
         """WalkNet at stride 1: the first of the 30 frames that it predicts."""
         step = references.walk_reference(self._sources.walknet.model)
-        return lambda frames, speed: step({"frames": frames, "speed": np.array(speed)})["next"]
+
+        def walk(frames: Any, speed: Any, wish: Any = None) -> Any:
+            told = np.zeros((len(frames), WISHES), np.float32) if wish is None else wish
+            return step({"frames": frames, "speed": np.array(speed), "wish": told})["next"]
+
+        walk.wishes = True  # type: ignore[attr-defined]
+        return walk
 
     @cached_property
     def infill(self) -> Any:

@@ -12,11 +12,12 @@ import numpy.typing as npt
 from motionrt.locomotion.crowd import FPS, HISTORY, Crowd
 from motionrt.locomotion.goal_frame import frames_to_goal
 from motionrt.locomotion.waypoints import WaypointTargets
+from motionrt.locomotion.wishes import Wish, wishes_to_goal
 from motionrt.motion.features.ccf219 import ROOT, ROTATIONS, WIDTH
 from motionrt.motion.rotations import project_to_so3
 from motionrt_export.examples import Array, Feeds
 from motionrt_export.references import Reference, step_reference
-from motionrt_training.networks.walknet import WalkNet
+from motionrt_training.networks.walknet import WISHES, WalkNet
 
 Floats = npt.NDArray[np.float64]
 SPACING = 1.0  # metres between waypoints
@@ -60,7 +61,7 @@ class Walks:
         frames = np.concatenate([history, walked.frames], axis=1)
         for step in range(0, walked.frames.shape[1], every):
             seen = frames_to_goal(frames[:, step : step + HISTORY], walked.goals[:, step])
-            yield {"frames": seen.astype(np.float32), "speed": walked.speeds.astype(np.float32)}
+            yield _told(seen, walked.speeds)
 
     @cached_property
     def walked(self) -> Walked:
@@ -80,11 +81,30 @@ class Walks:
     def __call__(self, batch: int, length: int, seed: int) -> Feeds:  # noqa: ARG002  # the length is fixed
         """Inputs of WalkNet."""
         frames, goals, speeds = self.histories(batch, seed)
-        return {"frames": frames_to_goal(frames, goals).astype(np.float32), "speed": speeds.astype(np.float32)}
+        return _told(frames_to_goal(frames, goals), speeds, wished(frames[:, -1], goals, speeds, seed))
 
 
 def _next(graph: Reference) -> Callable[[Array, Array], Array]:
-    return lambda frames, speed: np.asarray(graph({"frames": frames, "speed": speed.copy()})["next"])
+    return lambda frames, speed: np.asarray(graph(_told(frames, speed))["next"])
+
+
+def _told(frames: Array, speeds: Array, wish: Array | None = None) -> Feeds:
+    """Feeds of the network."""
+    wish = np.zeros((len(frames), WISHES)) if wish is None else wish
+    return {name: values.astype(np.float32) for name, values in (("frames", frames), ("speed", speeds), ("wish", wish))}
+
+
+def wished(last: Array, goals: Array, speeds: Array, seed: int) -> Array:
+    """Wishes (B, 8) in the goals' frames: none for half of the walkers, something else for each of the others."""
+    rng, count = np.random.default_rng((seed, len(last))), len(last)
+    ahead = np.arctan2(last[:, 2], last[:, 8]) + rng.uniform(-0.5, 0.5, count)
+    ways = [(float(v * np.sin(a)), float(v * np.cos(a))) for v, a in zip(speeds, ahead, strict=True)]
+    kinds = [(True, False), (True, True), (False, True)]  # of velocity, facing
+    rows = [
+        Wish(way if kind[0] else None, float(look) if kind[1] else None).row()
+        for kind, way, look in zip([kinds[k] for k in rng.integers(0, 3, count)], ways, ahead, strict=True)
+    ]
+    return wishes_to_goal(np.array(rows) * (rng.random((count, 1)) < 0.5), goals)
 
 
 def standing_start(model: WalkNet) -> Floats:

@@ -25,7 +25,7 @@ from motionrt_export.specs import WALKNET, GraphSpec, TensorSpec
 from motionrt_export.standing import Standing, in_columns, ordered
 from motionrt_export.trace import trace
 from motionrt_export.validate import ValidationError, open_session
-from motionrt_training.networks.walknet import WalkNet
+from motionrt_training.networks.walknet import WISHES, WalkNet
 
 SPEC = GraphSpec(
     "walknet_world",
@@ -55,7 +55,8 @@ class WalkNetWorldGraph(nn.Module):
         """(B, 30, 219), (B, 3), (B,) -> (B, 219)."""
         frames = ordered(history)
         body = Standing.of(frames[:, -1:])
-        return proper(in_columns(self.walk.step(frames, body, beside(body, goal).goal(), speed))[:, 0])
+        aim = torch.cat((beside(body, goal).goal(), speed[:, None] - 1.0), dim=1)
+        return proper(in_columns(self.walk.step(frames, body, nn.functional.pad(aim, (0, WISHES))))[:, 0])
 
 
 def beside(body: Standing, goal: Tensor) -> Standing:
@@ -81,7 +82,8 @@ def furthest(session: ort.InferenceSession, sources: Sources, count: int = 64) -
     """The largest difference of the next frame from the runtime's step with the torch module."""
     frames, goals, speeds = sources.walks.histories(count, seed=3)
     model = sources.source(WALKNET.name).reference
-    crowd = Crowd(lambda seen, speed: model({"frames": seen, "speed": speed.copy()})["next"], frames)
+    nothing = np.zeros((count, WISHES), np.float32)
+    crowd = Crowd(lambda seen, speed: model({"frames": seen, "speed": speed.copy(), "wish": nothing})["next"], frames)
     expected = crowd.step(goals, speeds)
     feeds = {"history": frames, "goal": goals, "speed": speeds}
     found = session.run(["next"], {name: value.astype(np.float32) for name, value in feeds.items()})[0]

@@ -20,6 +20,7 @@ from motionrt_export.trace import trace  # noqa: E402
 from motionrt_export.validate import open_session, run  # noqa: E402
 from motionrt_training.networks.motion_transformer import MotionTransformer  # noqa: E402
 from motionrt_training.networks.transnet import _distances, clock, fill, find_gap  # noqa: E402
+from motionrt_training.networks.walknet import WISHES, WalkNet  # noqa: E402
 
 
 def poses(rng: np.random.Generator, *shape: int) -> np.ndarray:
@@ -32,16 +33,27 @@ def poses(rng: np.random.Generator, *shape: int) -> np.ndarray:
 @pytest.mark.parametrize("batch", [1, 4])
 def test_the_step_is_the_first_frame_that_walknet_predicts(batch: int, patch: int) -> None:
     model, rng = tiny_walknet(patch), np.random.default_rng(0)
-    frames, speed = torch.from_numpy(poses(rng, batch, 30)), torch.rand(batch) * 2
-    expected = model(frames, speed)[:, 0]
-    torch.testing.assert_close(WalkNetGraph(model)(frames, speed), expected, atol=3e-6, rtol=1e-5)
+    frames, speed, wish = torch.from_numpy(poses(rng, batch, 30)), torch.rand(batch) * 2, torch.randn(batch, WISHES)
+    expected = model(frames, speed, wish)[:, 0]
+    torch.testing.assert_close(WalkNetGraph(model)(frames, speed, wish), expected, atol=1e-5, rtol=1e-5)
+
+
+def test_a_network_without_wishes_is_exported_as_one_that_does_not_mind_them() -> None:
+    torch.manual_seed(0)
+    model = WalkNet(d=32, layers=1, heads=2, ff=32, patch=5)
+    torch.nn.init.normal_(model.body.out.weight, std=0.05)
+    frames, speed = torch.from_numpy(poses(np.random.default_rng(0), 2, 30)), torch.ones(2)
+    wish = torch.zeros(2, WISHES)
+    torch.testing.assert_close(
+        WalkNetGraph(model)(frames, speed, wish), model(frames, speed)[:, 0], atol=1e-5, rtol=1e-5
+    )
 
 
 def test_characters_of_a_crowd_do_not_disturb_each_other() -> None:
     frames, speed = torch.from_numpy(poses(np.random.default_rng(1), 3, 30)), torch.tensor([0.5, 1.0, 1.5])
-    step = WalkNetGraph(tiny_walknet())
-    alone = torch.cat([step(frames[row : row + 1], speed[row : row + 1]) for row in range(3)])
-    torch.testing.assert_close(step(frames, speed), alone)
+    step, wish = WalkNetGraph(tiny_walknet()), torch.randn(3, WISHES)
+    alone = torch.cat([step(*(told[row : row + 1] for told in (frames, speed, wish))) for row in range(3)])
+    torch.testing.assert_close(step(frames, speed, wish), alone)
 
 
 @pytest.mark.parametrize("patch", [1, 4])

@@ -6,6 +6,7 @@ import { InferenceSession, Tensor } from "onnxruntime-node";
 import { aboutY, apply, multiply, nearestRotation } from "./rotations.mjs";
 
 const HISTORY = 30, WIDTH = 219, JOINTS = 24, ROOT = 216;
+const WISHES = 8; // a velocity, a facing, a speed to arrive with; zeros where nothing is wished beside the goal
 
 export class Walker {
   /** `history`: the last 30 frames in the world, oldest first. */
@@ -33,6 +34,7 @@ export class Walker {
     const { next } = await this.session.run({
       frames: new Tensor("float32", seen, [1, HISTORY, WIDTH]),
       speed: new Tensor("float32", Float32Array.of(speed), [1]),
+      wish: new Tensor("float32", new Float32Array(WISHES), [1, WISHES]),
     });
     const frame = fromGoal(onRotations(next.data), goal);
     this.history = [...this.history.slice(1), frame];

@@ -129,6 +129,13 @@ def turned_wish(wish: Tensor, turn: Tensor) -> Tensor:
     return torch.cat((wish[:, :1], vectors[:, 0], wish[:, 3:4], vectors[:, 1], wish[:, 6:]), dim=1)
 
 
+def with_wishes(source: WalkNet) -> WalkNet:
+    """A network that hears of wishes, and does not mind them yet; else the same."""
+    made = WalkNet(**{**source.config, "wishes": True})  # type: ignore[arg-type]
+    made.load_state_dict(source.state_dict())
+    return made.train(source.training)
+
+
 def _widen(module: nn.Module, state: dict[str, Any], prefix: str, *_: Any) -> None:
     """Weights without wishes fit a network with them: what it hears of wishes begins at zero."""
     assert isinstance(module, WalkNet)
