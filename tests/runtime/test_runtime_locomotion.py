@@ -36,7 +36,7 @@ def test_a_walk_stands_at_both_ends_and_measures_itself(runtime: Runtime) -> Non
     )
     assert walk.measures.goal_distance_m == pytest.approx(0, abs=1e-3)
     assert walk.measures.waypoints_reached == 1.0
-    assert walk.measures.path_deviation_m == pytest.approx(0, abs=1e-3)
+    assert walk.measures.path_deviation_m == pytest.approx(0, abs=5e-3)  # the weight goes from foot to foot
     assert walk.path.length == pytest.approx(np.hypot(3, 8), abs=1e-4)
     assert len(walk.waypoints) == 9
 

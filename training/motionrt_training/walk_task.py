@@ -22,6 +22,7 @@ Ints = NDArray[np.int64]
 Floats = NDArray[np.float32]
 
 FOOT = 0.03  # metres and ...
+PLACE = 0.05  # metres of the pelvis over the ground ...
 STEP = 0.01  # ... metres per frame at which errors of the feet are large
 UP = 3.0  # errors in height count this many times: the floor is near
 DRIFT, DRIFTED = 0.1, 0.015  # steady error of the history: part of the standard deviation, and beyond it
@@ -52,6 +53,7 @@ class WalkSettings:
     chain_after: int = option(800, "steps before --chain begins")
     feet: float = option(0.02, "weight of the feet's positions and speeds")
     skate: float = option(0.05, "weight of the speed of planted toes")
+    way: float = option(0.5, "weight of where the pelvis is over the ground: wishes are told there")
 
 
 class WalkTask:
@@ -148,8 +150,10 @@ class WalkTask:
         planted = batch["planted"][:, now - 1 : now + FRAMES]
         paired = (planted[:, 1:] & planted[:, :-1]).float()
         footing = self._feet(local[:, -1:], made, target, inside, paired)
+        within = batch["inside"][:, now : now + FRAMES].float()
+        way = (robust((made - target)[..., [216, 218]] / PLACE) * within).sum() / within.sum()
         loss = error + self.settings.feet * footing["feet"] + self.settings.skate * footing["skate"]
-        return {"loss": loss, "features": error, **footing}
+        return {"loss": loss + self.settings.way * way, "features": error, "way": way, **footing}
 
     def _history(self, net: WalkNet, batch: Any) -> Tensor:
         """The first frames with noise, followed by what the network itself made of them."""

@@ -23,19 +23,19 @@ from motionrt.locomotion.goal_frame import Goal, uncanonicalise
 from motionrt.locomotion.path import Path
 from motionrt.locomotion.path_following import Pace, Progress, walk
 from motionrt.locomotion.performance import Aim, Performance, Segment, performance_of
-from motionrt.locomotion.stepping import step_to
+from motionrt.locomotion.stepping import set_off, step_to
 from motionrt.locomotion.terrain import Heights, Terrain, raised
-from motionrt.locomotion.transitions import distance, speed_of
+from motionrt.locomotion.transitions import speed_of
 from motionrt.motion import Motion
 from motionrt.motion.rotations import wrapped
 
 SEED = 60  # frames that a transition starts from
-STRIDE = 20  # frames of a walk that a transition into a stride ends with
 NEAR = 1.6  # metres that a transition covers without a walk before it
-SHARPEST = 1.6  # radians that one transition turns; more turns on the spot first
-EASY_TURN = 0.7  # radians that a transition into a stride or a pose turns on the way
+EASY_TURN = 0.4  # radians that a transition into a stride or a pose turns on the way
 UPRIGHT = 0.12  # metres that the pelvis of somebody who stands is off the standing height
-SETTLE_S = 0.5  # seconds that the first pose is held
+STOPS_S = 0.6  # seconds of its speed before a stand at which a walk gives way to steps
+LOOKS_AHEAD = 0.9  # metres of a path that the first step looks ahead
+SETTLE_S = 0.2  # seconds that the first pose is held
 MOVING = 0.4  # m/s above which a motion that is gone on from counts as a walk
 LOW = 0.3  # metres that the pelvis is lower than standing in a pose that one has to get up from
 
@@ -98,8 +98,8 @@ class Character:
 
     @property
     def braking(self) -> float:
-        """Metres that it takes to come to a stand."""
-        return distance(self.pace.speed, 0.0)
+        """Metres before a stand at which a walk gives way to steps."""
+        return STOPS_S * self.pace.speed
 
     def way(self, goal: Place) -> Path | None:
         """A path from here to a place; None if that is here."""
@@ -140,11 +140,6 @@ class Character:
 
     def stop(self, place: Place, facing: float, name: str) -> None:
         """Come to a stand at a place, facing a heading."""
-        if self.moving:
-            now, turn = self.facing, float(wrapped(facing - self.facing))
-            self._stand(Goal(*place, now + float(np.clip(turn, -SHARPEST, SHARPEST))), name)
-            if abs(turn) <= SHARPEST:
-                return
         self._stand(Goal(*place, facing), name)
 
     def turn(self, facing: float, name: str, place: Place | None = None) -> None:
@@ -192,14 +187,14 @@ class Character:
         return performance_of(joined(self._parts[1:]), self._segments, self._aims, levels, foot_lock=foot_lock)
 
     def _set_off(self, path: Path, name: str, until: float) -> Path | None:
-        """The transition from a held pose into a stride along the path; the rest of the path."""
-        ahead = min(distance(0.0, self.pace.speed), path.length - until)
-        place, facing = path.at(ahead), heading_along(path, ahead)
+        """The first step from a held pose along the path; the rest of the path."""
+        facing = heading_along(path, min(LOOKS_AHEAD, path.length - until))
         self.get_up(name)
         self.turn(facing, name)
-        stride = uncanonicalise(self.models.stride[-STRIDE:], Goal(float(place[0]), float(place[1]), facing))
-        self._add("transition", name, self.models.transition(self.tail, stride), stride)
+        before = self.place
+        self._add("transition", name, set_off(self.tail, self.models.standing, facing), None)
         self.moving = True
+        ahead = apart(before, self.place)
         return path.part(ahead, path.length) if path.length - ahead > 0.05 else None
 
     def _ground(self, kind: str, motion: Motion, level: float | None) -> Heights:
@@ -212,12 +207,12 @@ class Character:
         return np.linspace(self._level, aim, motion.frames + 1)[1:]
 
     def _stand(self, goal: Goal, name: str) -> None:
-        """By steps from a stand; by a transition from anything else."""
+        """By steps from a stand or a walk; by a transition from anything else."""
         pose = uncanonicalise(self.models.standing, goal)
-        if self.moving or abs(self.models.standing.root[0, 1] - self._parts[-1].root[-1, 1]) > UPRIGHT:
+        if abs(self.models.standing.root[0, 1] - self._parts[-1].root[-1, 1]) > UPRIGHT:
             self.into(pose, name)
             return
-        self._pose = pose
+        self._pose, self.moving = pose, False
         self._add("transition", name, step_to(self.tail, pose).motion, pose)
 
     def _add(

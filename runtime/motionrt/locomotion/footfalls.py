@@ -18,6 +18,7 @@ TURN, PAST_TURN = 1.05, 0.35  # radians that a pair turns, and a step past the o
 SWING = 11  # frames at 30 fps that a foot is in the air
 PAUSE = 1  # frames between steps with both feet down
 LEAD, SETTLE = 4, 7  # frames before the first step and behind the last
+EVEN = 1e-3  # metres to a side that are none
 NARROW = 0.5  # metres sideways per metre ahead: more is a side step
 
 Shares = npt.NDArray[np.float64]
@@ -40,7 +41,7 @@ class Footfall:
 
 
 def plan_steps(
-    ahead: float, left: float, turn: float, displaced: tuple[bool, bool], in_air: int | None = None
+    ahead: float, left: float, turn: float, displaced: tuple[bool, bool], first: int | None = None, longer: int = 0
 ) -> list[Footfall]:
     """The steps that move a body by so much.
 
@@ -49,15 +50,16 @@ def plan_steps(
         left: metres to the left of that.
         turn: radians to the left.
         displaced: whether the left and the right foot stand elsewhere than they shall stand at the end.
-        in_air: a foot that is in the air already, 0 left, 1 right; it goes first, and at once.
+        first: a foot that has to go first, and at once, 0 left, 1 right: the one in the air, or behind in a walk.
+        longer: frames that the first step takes longer than others.
 
     Returns:
         Steps in order of time; none where nothing is displaced. The motion lasts :func:`duration` frames.
     """
     far = float(np.hypot(ahead, left))
     past = abs(left) <= NARROW * abs(ahead) and abs(turn) <= PAST_TURN * max(1, ceil(far / STRIDE))
-    first = _first(left, turn, displaced) if in_air is None else in_air
-    lead = LEAD if in_air is None else 1
+    lead = LEAD if first is None else 1
+    first = _first(left, turn, displaced) if first is None else first
     if past and far > STRIDE / 4:
         count = ceil(far / STRIDE)
         shares = [min(1.0, (k + 1) / count) for k in range(count + 1)]
@@ -66,8 +68,11 @@ def plan_steps(
         shares = [(k // 2 + 1) / pairs for k in range(2 * pairs)]
     feet = [(first + k) % 2 for k in range(len(shares))]
     kept = [(foot, share) for foot, share in zip(feet, shares, strict=True) if displaced[foot] or far + abs(turn) > 0.1]
-    every = SWING + PAUSE
-    return [Footfall(foot, lead + k * every, lead + k * every + SWING, share) for k, (foot, share) in enumerate(kept)]
+    out: list[Footfall] = []
+    for foot, share in kept:
+        start = out[-1].end + PAUSE if out else lead
+        out.append(Footfall(foot, start, start + SWING + (0 if out else longer), share))
+    return out
 
 
 def duration(steps: list[Footfall]) -> int:
@@ -107,4 +112,4 @@ def _first(left: float, turn: float, displaced: tuple[bool, bool]) -> int:
     """The foot on the side that is gone to or turned to; else one that has to move."""
     if displaced[0] != displaced[1]:
         return 0 if displaced[0] else 1
-    return 0 if left + 0.3 * turn >= 0 else 1
+    return 0 if left + 0.3 * turn >= -EVEN else 1

@@ -10,15 +10,19 @@ import numpy.typing as npt
 
 from motionrt.errors import InvalidInputError, WalkError
 from motionrt.locomotion.crowd import FPS, SPEED, Crowd, NextFrame, history_of, to_motion
+from motionrt.locomotion.leading import helped, led, slowed
 from motionrt.locomotion.path import Path
 from motionrt.locomotion.waypoints import RADIUS, WaypointTargets
 from motionrt.motion import Motion
+from motionrt.motion.rotations import wrapped
 from motionrt.untrusted.arguments import real
 from motionrt.untrusted.words import shown
 
 SPACING = 1.0  # metres between waypoints
 ARRIVED = 0.1  # metres from the end of a path that are as good as there
 PATIENCE_S = 8.0  # seconds without coming nearer to a waypoint after which a character is stuck
+BEHIND, MISSED = 1.3, 2.0  # radians aside that are behind, and radii from a waypoint that are missed by little
+LEAVING = 0.05  # metres farther than before that somebody is who leaves
 NEARER = 0.02  # metres that count as nearer
 
 Progress = Callable[[int, int, str], None]
@@ -95,8 +99,11 @@ def walk_together(
             crowd.keep(stays)
             walking = [trip for trip, stay in zip(walking, stays, strict=True) if stay]
             continue
-        goals = np.stack([trip.goal for trip in walking])
-        for trip, frame in zip(walking, crowd.step(goals, walking[0].pace.speed), strict=True):
+        aims = np.stack([trip.goal for trip in walking])
+        crowd.history = helped(aims, crowd.history)
+        goals = led(aims, crowd.history[:, -1])
+        speeds = slowed(aims, crowd.history[:, -1], walking[0].pace.speed)
+        for trip, frame in zip(walking, crowd.step(goals, speeds), strict=True):
             trip.frames.append(frame)
         _tell(progress, trips)
     return [trip.walked() for trip in trips]
@@ -116,6 +123,7 @@ class _Trip:
 
     def goes_on(self, xz: npt.NDArray[np.float64]) -> bool:
         """Whether there is more to walk from here; picks the next goal."""
+        self._leave_behind(xz)
         self.goal = self.routes.goals(xz[None])[0]
         away = float(np.hypot(*(self.goal[:2] - xz)))
         if self.routes.index[0] != self._mark:
@@ -126,6 +134,16 @@ class _Trip:
             return False
         self._check_progress(away, xz)
         return True
+
+    def _leave_behind(self, xz: npt.NDArray[np.float64]) -> None:
+        """A waypoint that was missed by little and lies behind is not turned round for, unless it is the last."""
+        if not self.frames or self.routes.ends()[0]:
+            return
+        way = self.goal[:2] - xz
+        behind = abs(float(wrapped(np.arctan2(way[0], way[1]) - np.arctan2(*self.frames[-1][[2, 8]])))) > BEHIND
+        away = float(np.hypot(*way))
+        if behind and self._best + LEAVING < away < MISSED * self.pace.radius:
+            self.routes.index[0] += 1
 
     def _there(self, away: float, xz: npt.NDArray[np.float64]) -> bool:
         """Within reach of the end, or just past it."""

@@ -14,6 +14,7 @@ import numpy.typing as npt
 
 from motionrt.locomotion.crowd import FPS, at_30_fps
 from motionrt.locomotion.footfalls import Footfall, duration, eased, plan_steps, shares, swings
+from motionrt.locomotion.goal_frame import Goal, uncanonicalise
 from motionrt.motion import SMPL24, Motion
 from motionrt.motion.feet.lock import needed_drop, smooth_cover
 from motionrt.motion.feet.two_bone import LEG_JOINTS, two_bone
@@ -29,13 +30,16 @@ from motionrt.motion.rotations import (
 )
 from motionrt.motion.transforms import heading
 
+FIRST_WAY = 1.8  # metres of the way that the first step of a walk belongs to
 LIFT, LIFT_FAR = 0.075, 0.03  # metres that an ankle is lifted, and what a long step adds
 TIPS = 0.35  # radians that the toes point down as a foot leaves the ground
 LIFTS_FIRST = 0.13  # of the time of a step in which a foot only rises, and only sinks
 SHIFT = 0.45  # share of the way to the standing foot that the weight goes
 SMOOTH = 3.5  # frames: standard deviation of what the body makes of its feet
 SINKS = 0.12  # metres that the body may sink for a leg to reach
-SETTLED = 0.15  # seconds in which the speed from before is forgotten
+MOVING = 0.3  # m/s at which somebody is in the middle of a walk
+FAR, LONGER, MOST_LONGER = 0.55, 10.0, 5.0  # metres of a first step, frames that each more takes, and the most of them
+SETTLED = 0.22  # seconds in which the speed from before is forgotten
 MOVED, TURNED = 0.015, 0.06  # metres and radians: feet that are displaced by less are not lifted
 IN_THE_AIR = 0.03  # metres above its stand: a foot that is as high goes first
 ARMS, TRUNK = 0.75, 0.15  # radians per metre that a foot is ahead of the other
@@ -75,11 +79,12 @@ def step_to(seed: Motion, target: Motion) -> Steps:
     """
     now, target = at_30_fps(seed)[-1:], at_30_fps(target)[-1:]
     start, end = _Stand.of(now), _Stand.of(target)
-    steps = _planned(start, end)
+    speed = _speed_of(seed)
+    steps = _planned(start, end, speed)
     frames = duration(steps)
     placed = shares(steps, frames)
     body = _smoothed(placed.mean(axis=1))
-    coasted = _coasting(seed, frames)
+    coasted = _coasting(speed, frames)
     root = _body_path(start, end, body, swings(steps, frames)) + coasted
     upper = _upper(now, target, body, start, end)
     feet, turns = _feet(start, end, steps, frames)
@@ -87,6 +92,20 @@ def step_to(seed: Motion, target: Motion) -> Steps:
     rotations[-1], root[-1] = target.rotations[0], target.root[0]
     made = Motion(rotations.astype(np.float32), root.astype(np.float32), FPS)
     return Steps(made, (*(step.end for step in steps[:-1]), frames))
+
+
+def set_off(seed: Motion, standing: Motion, way: float) -> Motion:
+    """The first step of a walk along a heading, from a stand; a walk goes on from its last frame.
+
+    Args:
+        seed: what came before, at 30 fps, standing at the end.
+        standing: the pose that it stands in, one frame.
+        way: radians from +Z towards +X.
+    """
+    x, z = float(seed.root[-1, 0]), float(seed.root[-1, 2])
+    goal = Goal(x + FIRST_WAY * float(np.sin(way)), z + FIRST_WAY * float(np.cos(way)), way)
+    steps = step_to(seed, uncanonicalise(standing, goal))
+    return steps.motion[: steps.landings[0]]
 
 
 @dataclass(frozen=True)
@@ -106,7 +125,7 @@ class _Stand:
         return cls(root, float(heading(pose)[0]), ankles, turns)
 
 
-def _planned(start: _Stand, end: _Stand) -> list[Footfall]:
+def _planned(start: _Stand, end: _Stand, speed: Values) -> list[Footfall]:
     turn = float(wrapped(end.yaw - start.yaw))
     way = end.root - start.root
     facing = start.yaw + turn / 2
@@ -117,7 +136,16 @@ def _planned(start: _Stand, end: _Stand) -> list[Footfall]:
     high = start.ankles[:, 1] - end.ankles[:, 1]
     displaced = (off > MOVED) | (twist > 3 * TURNED) | (high > IN_THE_AIR)
     first = int(high.argmax()) if high.max() > IN_THE_AIR else None
-    return plan_steps(float(ahead), float(left), turn, (bool(displaced[0]), bool(displaced[1])), first)
+    if np.hypot(*speed[[0, 2]]) > MOVING:
+        behind = int((start.ankles @ speed).argmin())
+        first, displaced[behind] = (behind if first is None else first), True
+    told = float(ahead), float(left), turn, (bool(displaced[0]), bool(displaced[1])), first
+    steps = plan_steps(*told)
+    if not steps:
+        return steps
+    aim = _placed(start, end, steps[0].share)[0][steps[0].foot]
+    far = float(np.linalg.norm(aim - start.ankles[steps[0].foot]))
+    return plan_steps(*told, longer=round(float(np.clip((far - FAR) * LONGER, 0, MOST_LONGER))))
 
 
 def _placed(start: _Stand, end: _Stand, share: float) -> tuple[Values, Values]:
@@ -211,11 +239,15 @@ def _with_legs(upper: Values, root: Values, feet: Values, turns: Values, ahead: 
     return rotations, root
 
 
-def _coasting(seed: Motion, frames: int) -> Values:
-    """``(F, 3)`` metres: where the speed of the seed's last frames leads before it is forgotten."""
+def _speed_of(seed: Motion) -> Values:
+    """``(3,)`` m/s of the pelvis at the end."""
     if seed.frames < 2:
-        return np.zeros((frames, 3))
-    speed = (seed.root[-1] - seed.root[-2]).astype(float) * FPS
+        return np.zeros(3)
+    return np.asarray((seed.root[-1] - seed.root[-2]).astype(np.float64) * FPS)
+
+
+def _coasting(speed: Values, frames: int) -> Values:
+    """``(F, 3)`` metres: where a speed leads before it is forgotten."""
     time = np.arange(1, frames + 1)[:, None] / FPS
     left = np.clip(1.0 - np.arange(1, frames + 1) / frames, 0.0, 1.0)[:, None]
     return np.asarray(speed * time * np.exp(-time / SETTLED) * left)

@@ -15,15 +15,15 @@ import numpy as np
 import numpy.typing as npt
 
 from motionrt.locomotion.arguments import as_goal
-from motionrt.locomotion.bearings import apart, facing_of, over_feet, place_of
-from motionrt.locomotion.character import MOVING, SEED, STRIDE
+from motionrt.locomotion.bearings import Place, ahead_of, apart, facing_of, over_feet, place_of
+from motionrt.locomotion.character import MOVING, SEED
 from motionrt.locomotion.character_models import CharacterModels
 from motionrt.locomotion.crowd import FPS, SPEED, Crowd, at_30_fps, takes_wishes, to_motion
 from motionrt.locomotion.goal_frame import Goal, uncanonicalise
-from motionrt.locomotion.leading import RUNS_AT, Lead, by_stick, towards
+from motionrt.locomotion.leading import ASIDE, STANDS, Lead, by_stick, helped, towards
 from motionrt.locomotion.path_following import Pace
-from motionrt.locomotion.stepping import step_to
-from motionrt.locomotion.transitions import distance, speed_of
+from motionrt.locomotion.stepping import set_off, step_to
+from motionrt.locomotion.transitions import speed_of
 from motionrt.locomotion.wishes import Wish
 from motionrt.models.walknet import HISTORY
 from motionrt.motion import Motion
@@ -32,10 +32,11 @@ from motionrt.motion.feet.live_lock import FootLocker
 from motionrt.motion.rotations import wrapped
 from motionrt.untrusted.arguments import check_flags, checked_whole
 
-STEPPED = 1.3  # metres that somebody who stands steps, in any direction, instead of walking
+STEPPED = 2.2  # metres that are stepped, in any direction, instead of walked
+ON = 1.8  # metres that are stepped on sideways or back while a stick says so
+STOPS = 0.35  # seconds of its speed that a walk goes on until it stands
 LOOKS = 0.9  # radians between facing and way: more is turned to by steps before a walk
 CLOSE, CLOSE_TURN = 0.02, 0.06  # metres and radians: somebody who stands this near to a goal stays
-STOPPED = 0.35  # m/s below which a walk that shall end gives way to steps
 QUICKEST, FASTEST_TURN = 6.0, 400.0  # m/s and degrees/s between frames: more is no walk
 LOWEST, HIGHEST = 0.7, 1.1  # of the standing height: lower or higher is no walk
 IDLE_S = 2.0  # seconds of standing that are made at once
@@ -101,63 +102,60 @@ class Stroller:
 
     def _walk(self, seen: Motion) -> Frames:
         lead = self._lead(seen)
-        if lead.speed < RUNS_AT and speed_of(seen, 0.15) < STOPPED:
+        if lead is None:
             return self._end_of_walk(seen)
-        place = place_of(seen)
-        wishes = np.array([lead.wish().row()]) if takes_wishes(self.models.walk) else None
-        crowd = Crowd(self.models.walk, self._last[None, -HISTORY:])
-        made = crowd.step(np.array([lead.goal(place).row()]), lead.speed, wishes)
+        wishes = np.array([lead.wish().row()]) if takes_wishes(self.models.walk) and lead.faces_aside else None
+        aim = np.array([lead.goal(place_of(seen)).row()])
+        crowd = Crowd(self.models.walk, helped(aim, self._last[None, -HISTORY:]))
+        made = crowd.step(aim, lead.speed, wishes)
         return made if self._is_walk(made[0]) else self._step(seen, Goal(*over_feet(seen), facing_of(seen)))
 
-    def _lead(self, seen: Motion) -> Lead:
-        place, facing, now = place_of(seen), facing_of(seen), speed_of(seen, 0.2)
+    def _lead(self, seen: Motion) -> Lead | None:
+        facing, now = facing_of(seen), speed_of(seen, 0.2)
         if self.stick is None:
-            return towards(self.goal, place, facing, now, self.speed, FPS)
-        return by_stick(self.stick.velocity or (0.0, 0.0), self.stick.facing, facing, now, FPS)
+            return towards(self.goal, place_of(seen), facing, now, self.speed)
+        return by_stick(self.stick.velocity or (0.0, 0.0), self.stick.facing, facing, now)
 
     def _end_of_walk(self, seen: Motion) -> Frames:
-        """Steps to the goal if that is near, else to a stand where the feet are."""
-        x, z = over_feet(seen)
-        if self.stick is None and apart((x, z), (self.goal.x, self.goal.z)) < STEPPED:
-            return self._step(seen, self.goal)
-        return self._step(seen, Goal(x, z, facing_of(seen)))
+        """Steps to the goal if that is near, else to a stand a little ahead."""
+        facing = facing_of(seen)
+        ahead = ahead_of(place_of(seen), facing, STOPS * speed_of(seen, 0.2))
+        if self.stick is None:
+            near = apart(place_of(seen), (self.goal.x, self.goal.z)) < STEPPED
+            return self._step(seen, self.goal if near else Goal(*ahead, facing))
+        return self._by_stick(seen, self.stick, ahead)
 
     def _from_stand(self, seen: Motion) -> Frames:
         x, z = place_of(seen)
         facing = facing_of(seen)
         if self.stick is not None:
-            return self._by_stick(seen, self.stick, facing)
+            return self._by_stick(seen, self.stick, over_feet(seen))
         away = apart((x, z), (self.goal.x, self.goal.z))
         if away <= STEPPED:
             if away > CLOSE or abs(wrapped(self.goal.heading - facing)) > CLOSE_TURN:
                 return self._step(seen, self.goal)
             return self._pause(seen)
-        ahead = float(np.arctan2(self.goal.x - x, self.goal.z - z))
-        if abs(wrapped(ahead - facing)) > LOOKS:
-            return self._step(seen, Goal(*over_feet(seen), ahead))
-        return self._set_off(seen, ahead, away)
+        return self._set_off(seen, float(np.arctan2(self.goal.x - x, self.goal.z - z)))
 
-    def _by_stick(self, seen: Motion, stick: Wish, facing: float) -> Frames:
-        velocity = stick.velocity or (0.0, 0.0)
-        wanted = hypot(*velocity)
-        way = float(np.arctan2(velocity[0], velocity[1]))
-        if wanted <= RUNS_AT:
-            if stick.facing is not None and abs(wrapped(stick.facing - facing)) > 2 * CLOSE_TURN:
-                return self._step(seen, Goal(*over_feet(seen), stick.facing))
-            return self._pause(seen)
-        looks = way if stick.facing is None else stick.facing
-        if abs(wrapped(looks - facing)) > LOOKS:
-            return self._step(seen, Goal(*over_feet(seen), looks))
-        return self._set_off(seen, way, np.inf)
+    def _by_stick(self, seen: Motion, stick: Wish, place: Place) -> Frames:
+        """From a stand, or to one at ``place``: steps sideways or back, a turn, the first step of a walk, a pause."""
+        velocity, facing = stick.velocity or (0.0, 0.0), facing_of(seen)
+        wanted, way = hypot(*velocity), float(np.arctan2(velocity[0], velocity[1]))
+        looks = facing if stick.facing is None else stick.facing
+        if wanted <= STANDS:
+            turns = abs(wrapped(looks - facing)) > 2 * CLOSE_TURN
+            return self._step(seen, Goal(*place, looks)) if turns or self._walks else self._pause(seen)
+        if stick.facing is not None and abs(wrapped(way - looks)) > ASIDE:
+            x, z = place_of(seen)
+            return self._step(seen, Goal(x + ON * velocity[0] / wanted, z + ON * velocity[1] / wanted, looks))
+        return self._set_off(seen, way)
 
-    def _set_off(self, seen: Motion, ahead: float, away: float) -> Frames:
+    def _set_off(self, seen: Motion, way: float) -> Frames:
+        """A step along the way; who looks elsewhere turns first."""
+        if abs(wrapped(way - facing_of(seen))) > LOOKS:
+            return self._step(seen, Goal(*over_feet(seen), way))
         self._walks = True
-        if takes_wishes(self.models.walk):
-            return self._walk(seen)
-        far = min(distance(0.0, self.speed), away)
-        x, z = place_of(seen)
-        place = Goal(x + far * float(np.sin(ahead)), z + far * float(np.cos(ahead)), ahead)
-        return _rows(self.models.transition(seen, uncanonicalise(self.models.stride[-STRIDE:], place)))
+        return _rows(set_off(seen, self.models.standing, way))
 
     def _step(self, seen: Motion, goal: Goal) -> Frames:
         self._walks = False

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -28,6 +28,8 @@ FOOT = 0.11  # metres from the middle to each foot
 SHOULDER = 0.12  # metres that a hand's side is off the middle
 COMFORTABLE = 1.1  # metres: where a hand goes on a tall thing
 SMALL = 0.6  # metres: lower things are taken at their middle
+LEANING = 0.12  # metres that feet are farther away for leaning than for a grip
+HANDLE = 1.0  # metres of a door's handle
 _BY_HEIGHT = (
     (0.2, 0.6, 1.2, 1.6, 2.0),
     (0.35, 0.42, 0.42, 0.32, 0.20),
@@ -69,7 +71,8 @@ def action_keypoints(
     told = instruction if isinstance(instruction, Instruction) else parse_instruction(instruction)
     here = ground_place(near)
     thing = find_thing(told, cloud, here)
-    rules = {"sit": _sit, "stand": _stand, "grab": _hand_at, "reach": _hand_at, "touch": _hand_at}
+    rules = {"sit": _sit, "stand": _stand, "lean": _lean, "look": _look, "open": _open}
+    rules |= dict.fromkeys(("grab", "reach", "touch"), _hand_at)
     if told.verb not in rules:
         raise InvalidInputError(f"unknown verb '{told.verb}'; there are: {', '.join(rules)}")
     keypoints, heading, approach = rules[told.verb](told, thing)
@@ -116,6 +119,42 @@ def _stand(_: Instruction, thing: Thing) -> _Answer:
     keypoints = {"pelvis": _point(spot.place, floor + PELVIS_STANDING)}
     keypoints |= _feet(side.at(spot.across, spot.outside - TOES), side.along, floor)
     return keypoints, side.heading_in, spot.place
+
+
+def _lean(told: Instruction, thing: Thing) -> _Answer:
+    """Both hands on the surface, the feet a little farther away than for a grip."""
+    one = replace(told, hand=None, height=_leaning_height(told, thing))
+    keypoints, heading, place = _hand_at(one, thing)
+    hand = np.array(keypoints["right_hand"])
+    left = np.array([np.cos(heading), 0.0, -np.sin(heading)])
+    away = -LEANING * np.array([np.sin(heading), 0.0, np.cos(heading)])
+    leaning = {name: tuple((np.array(point) + away).tolist()) for name, point in keypoints.items() if "foot" in name}
+    hands = {"right_hand": tuple(hand.tolist()), "left_hand": tuple((hand + 2 * SHOULDER * 1.4 * left).tolist())}
+    return {**hands, **leaning}, heading, place + away[[0, 2]]
+
+
+def _look(_: Instruction, thing: Thing) -> _Answer:
+    """Upright where one comes from, turned to the thing."""
+    if thing.near is None:
+        return _stand(_, thing)
+    here, floor = np.asarray(thing.near, dtype=np.float64), thing.around.floor
+    way = thing.points[:, [0, 2]].astype(np.float64).mean(axis=0) - here
+    heading = float(np.arctan2(way[0], way[1]))
+    ahead, left = np.array([np.sin(heading), np.cos(heading)]), np.array([np.cos(heading), -np.sin(heading)])
+    keypoints = {"pelvis": _point(here, floor + PELVIS_STANDING)}
+    return keypoints | _feet(here + TOES * ahead, left, floor), heading, here
+
+
+def _open(told: Instruction, thing: Thing) -> _Answer:
+    """A hand where a handle is, unless a height is told."""
+    floor = thing.around.floor
+    low, high = np.percentile(thing.points[:, 1] - floor, [2.0, 98.0])
+    return _hand_at(told if told.height is not None else replace(told, height=float(np.clip(HANDLE, low, high))), thing)
+
+
+def _leaning_height(told: Instruction, thing: Thing) -> float:
+    low, high = np.percentile(thing.points[:, 1] - thing.around.floor, [2.0, 98.0])
+    return told.height if told.height is not None else float(np.clip(COMFORTABLE, low, high))
 
 
 def _hand_at(told: Instruction, thing: Thing) -> _Answer:

@@ -17,10 +17,11 @@ VERBS: dict[str, tuple[str, ...]] = {
         "switch",
         "turn on",
         "turn off",
-        "open",
-        "close",
     ),
-    "stand": ("stand", "stand up", "wait", "stop", "go", "walk", "look", "stay"),
+    "open": ("open", "close", "pull open", "push open", "shut"),
+    "lean": ("lean", "lean on", "prop"),
+    "look": ("look", "watch", "face", "gaze", "turn to"),
+    "stand": ("stand", "stand up", "wait", "stop", "go", "walk", "stay"),
 }
 """What a character can do, and how people say it."""
 
