@@ -86,7 +86,7 @@ def _line(item: Item, clock: float, name: str) -> Line:
         start = checked_number(given.get("from", clock), f"{name}: from", 0.0, 1e6)
         length = given.get("seconds", SECONDS)
         end = checked_number(given.get("to", start + float(length)), f"{name}: to", 0.0, 1e6)
-        checked_number(end - start, f"{name}: to - from", SHORTEST_S, LONGEST_S)
+        checked_number(round(end - start, 6), f"{name}: to - from", SHORTEST_S, LONGEST_S)
     parts = checked_parts(given["parts"]) if given.get("parts") is not None else None
     return Line(text, start, end, parts)
 

@@ -98,3 +98,10 @@ def test_the_part_of_a_text_upon_another_is_its_own_in_the_middle_of_its_time() 
 def test_timelines_that_cannot_be_are_refused_with_what_is_wrong(items: list[object], what: str) -> None:
     with pytest.raises(InvalidInputError, match=what):
         read_timeline(items, label)  # type: ignore[arg-type]
+
+
+def test_a_text_of_the_longest_length_may_begin_anywhere() -> None:
+    start, end = 6.6, 6.6 + 9.5
+    assert end - start > 9.5  # as floats have it
+    lines = read_timeline([{"text": "walk", "from": 0, "to": start}, {"text": "sit", "from": start, "to": end}], label)
+    assert lines[1].end - lines[1].start == pytest.approx(9.5)
