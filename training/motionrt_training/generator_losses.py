@@ -10,7 +10,7 @@ from motionrt.motion.features import ego77
 ROOT_WEIGHT = 3.0
 STILL = 0.3  # m/s: a foot that is slower counts as standing
 SURE = 30.0  # frames after which a way counts half: the longer it is, the less of it noise lets see
-FEET = [ego77.JOINTS.start + 3 * (joint - 1) for joint in ego77.FEET]
+FEET = [ego77.column(joint) for joint in ego77.FEET]
 
 
 def motion_losses(

@@ -30,8 +30,9 @@ def calmed(features: FloatArray, said: TextAttributes) -> tuple[FloatArray, Bool
     if said.still:
         speed = max(_speed(rows, f"{side}_{joint}") for side in ("left", "right") for joint in ("wrist", "ankle"))
         if speed > STILL:
-            _scaled(rows, np.arange(ego77.WIDTH - 4), max(LEAST, STILL / speed))
-            rows[:, :3] *= max(LEAST, STILL / speed)
+            part = max(LEAST, STILL / speed)
+            _scaled(rows, np.arange(ego77.CONTACTS.start), part)
+            rows[:, :3] *= part
             parts[:] = True
         return rows, parts
     if said.arm in ("left", "right"):
@@ -96,5 +97,5 @@ def _speed(rows: FloatArray, joint: str, about: str | None = None) -> float:
 
 
 def _columns(joint: str) -> npt.NDArray[np.intp]:
-    first = ego77.JOINTS.start + 3 * (SMPL24.index(joint) - 1)
+    first = ego77.column(SMPL24.index(joint))
     return np.arange(first, first + 3)

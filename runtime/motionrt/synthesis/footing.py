@@ -10,7 +10,7 @@ from motionrt.synthesis.smoothing import smoothed
 from motionrt.text import TextAttributes
 
 ON_THE_SPOT, GOING = 1.0, 0.3  # how far the root is carried; whoever goes a way goes it, if need be on feet that slide
-_LOW, _SPREAD = np.array([0.13, 0.13, 0.08, 0.08]), 0.03  # metres up to which ankles and toes stand, and a little above
+_SPREAD = 0.03  # metres above a standing height over which a foot counts less and less
 
 
 def share_of(said: TextAttributes) -> float:
@@ -28,7 +28,7 @@ def carried(features: FloatArray, share: float) -> FloatArray:
     feet = rows[:, ego77.JOINTS].reshape(len(rows), -1, 3)[:, [joint - 1 for joint in ego77.FEET]]
     x, z = ego77.to_body(feet[1:, :, 0], feet[1:, :, 2], -rows[:-1, :1])
     wanted = feet[:-1][..., [0, 2]] - np.stack([x, z], axis=-1)  # the way that keeps each of them where it is
-    above = np.maximum(feet[:-1, :, 1] - _LOW, 0)
+    above = np.maximum(feet[:-1, :, 1] - ego77.LOW, 0)
     stands = np.clip(rows[:-1, ego77.CONTACTS], 0, 1) ** 2 * np.exp(-above / _SPREAD)
     total = stands.sum(axis=1, keepdims=True)
     mean = (stands[..., None] * wanted).sum(axis=1) / np.maximum(total, 1e-6)

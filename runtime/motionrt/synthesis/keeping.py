@@ -90,7 +90,7 @@ def reaching(features: FloatArray, frame: int, joint: str, place: tuple[float, f
     left, forward = ego77.to_body(missing[0], missing[2], ego77.headings(rows)[about])
     own = np.stack([left, np.full(len(left), missing[1]), forward], axis=1)
     for part, share in _ALONG[end].items():
-        column = ego77.JOINTS.start + 3 * (SMPL24.index(f"{side}_{part}") - 1)
+        column = ego77.column(SMPL24.index(f"{side}_{part}"))
         rows[about, column : column + 3] += share * near[:, None] * own
     parts = np.zeros((len(rows), len(PARTS)), bool)
     parts[about, PARTS.index(f"{side} {'arm' if end == 'wrist' else 'leg'}")] = True

@@ -62,7 +62,7 @@ def held_columns() -> npt.NDArray[np.intp]:
     owners = np.full(ego77.WIDTH, PARTS.index("global"))
     for number, part in enumerate(PARTS[:-1]):
         for joint in PART_JOINTS[part]:
-            first = ego77.JOINTS.start + 3 * (joint - 1)
+            first = ego77.column(joint)
             owners[first : first + 3] = number
     owners[ego77.CONTACTS] = [PARTS.index(f"{side} leg") for _ in range(2) for side in ("left", "right")]
     return owners

@@ -50,8 +50,8 @@ class Way:
 def way_of_text(said: TextAttributes, seconds: float) -> Way:
     """What a text says of the way of a motion of so many seconds."""
     turn, side = _turning(said)
-    low_high = turn if turn is None or side != "right" else (-turn[1], -turn[0])
-    return Way(low_high, *_places(said, seconds), either=turn not in (None, _STRAIGHT) and side not in _SIDES)
+    sided = (-turn[1], -turn[0]) if turn is not None and side == "right" else turn
+    return Way(sided, *_places(said, seconds), either=turn not in (None, _STRAIGHT) and side not in _SIDES)
 
 
 def _turning(said: TextAttributes) -> tuple[Range | None, str | None]:

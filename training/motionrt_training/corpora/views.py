@@ -85,7 +85,8 @@ def draw_views(recordings: Sequence[PackedRecording], count: int, seed: int) -> 
     """`count` views, spans and untold stretches in proportion to their time."""
     rng = np.random.default_rng(seed)
     spans = [(recording, span) for recording in recordings for span in recording.spans]
-    weight = np.array([min(max(span.count, 40), 240) for _, span in spans], float) * _balance(spans)
+    actions = [_action(span) for _, span in spans]
+    weight = np.array([min(max(span.count, 40), 240) for _, span in spans], float) * _balance(spans, actions)
     seconds = np.array([len(recording.joints) for recording in recordings], float)
     donors = [(span, *found) for recording, span in spans if (found := _donor(recording, span))]
     for _ in range(count):
@@ -93,8 +94,9 @@ def draw_views(recordings: Sequence[PackedRecording], count: int, seed: int) -> 
             recording = recordings[int(rng.choice(len(recordings), p=seconds / seconds.sum()))]
             action, (first, frames) = None, _untold(recording, rng)
         else:
-            recording, span = spans[int(rng.choice(len(spans), p=weight / weight.sum()))]
-            action, (first, frames) = _action(span), _about(recording, span, rng)
+            number = int(rng.choice(len(spans), p=weight / weight.sum()))
+            recording, span = spans[number]
+            action, (first, frames) = actions[number], _about(recording, span, rng)
         if frames < LEAST:
             continue
         joints = recording.joints[first : first + frames].astype(np.float64)
@@ -104,9 +106,10 @@ def draw_views(recordings: Sequence[PackedRecording], count: int, seed: int) -> 
         yield _row(joints, captions, recording.source, rng)
 
 
-def _balance(spans: Sequence[tuple[PackedRecording, CaptionedSpan]]) -> NDArray[np.float64]:
+def _balance(
+    spans: Sequence[tuple[PackedRecording, CaptionedSpan]], actions: Sequence[str | None]
+) -> NDArray[np.float64]:
     """How often each span is drawn beside its length: the less there is of its action, the oftener."""
-    actions = [_action(span) for _, span in spans]
     total: Counter[str | None] = Counter()
     for action, (_, span) in zip(actions, spans, strict=True):
         total[action] += span.count

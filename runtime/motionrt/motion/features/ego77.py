@@ -27,7 +27,10 @@ WIDTH = 77
 ROOT, JOINTS, CONTACTS = slice(0, 4), slice(4, 73), slice(73, 77)
 FEET = tuple(SMPL24.index(f"{side}_{joint}") for joint in ("ankle", "foot") for side in ("left", "right"))
 
-_SLOW, _LOW = 0.35, (0.13, 0.08)  # m/s; heights of ankle and foot over the floor, metres, up to which a foot stands
+LOW = (0.13, 0.13, 0.08, 0.08)
+"""Heights of :data:`FEET` over the floor, metres, up to which a foot stands."""
+
+_SLOW = 0.35  # m/s up to which a foot stands
 _LEVEL = 0.6  # share of the line across the body that must lie level for its heading to be told
 _SMOOTH_S = 0.1  # standard deviation of the smoothing of the heading, seconds
 
@@ -75,6 +78,11 @@ def decode(features: npt.ArrayLike) -> Array:
     return np.concatenate([pelvis[:, None], others], axis=1)
 
 
+def column(joint: int) -> int:
+    """The first of the three columns of a joint of ``smpl24``, 1 to 23."""
+    return int(JOINTS.start) + 3 * (joint - 1)
+
+
 def headings(features: Array) -> Array:
     """``(F,)`` heading of every frame of features ``(F, 77)``, radians, 0 at the first, left positive."""
     return _summed(features[:, :1])[:, 0]
@@ -105,7 +113,7 @@ def contacts(joints: Array) -> Array:
     """``(F, 4)`` whether ankles and feet stand: slow, and low over the floor."""
     feet = joints[:, FEET]
     speed = _ahead(np.linalg.norm(np.diff(feet, axis=0), axis=-1)) * FPS
-    low = feet[..., 1] < np.repeat(_LOW, 2)
+    low = feet[..., 1] < np.array(LOW)
     return ((speed < _SLOW) & low).astype(np.float64)
 
 
@@ -142,7 +150,7 @@ def _mirror() -> tuple[npt.NDArray[np.intp], FloatArray]:
     columns = [0, 1, 2, 3]
     signs = [-1.0, -1.0, 1.0, 1.0]
     for joint in range(1, len(names)):
-        first = JOINTS.start + 3 * (twin[joint] - 1)
+        first = column(twin[joint])
         columns += [first, first + 1, first + 2]
         signs += [-1.0, 1.0, 1.0]
     columns += [74, 73, 76, 75]
