@@ -1,9 +1,11 @@
 """Libraries in PostgreSQL (pgserver's wheel) and Milvus Lite: rates, disk, and whether they answer as the gallery does.
 
 python benchmarks/engines.py postgres 100000 --graph -o docs/results/engines.json
+python benchmarks/engines.py postgres 1000000 --queries 8 -o ...
 python benchmarks/engines.py milvus 30000 -o ...
 
-The vectors are those of `scale.py`. The store is closed and opened again before it is asked.
+The vectors are those of `scale.py`. The store is closed and opened again before it is asked. Seconds of the processor
+are those of this process: the server's own come on top of them.
 """
 
 from __future__ import annotations
@@ -18,7 +20,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from scale import QUERIES, STAMP, disk, gallery_of, median, timed, vectors_of
+from scale import QUERIES, STAMP, cpu, disk, gallery_of, median, timed, vectors_of
 
 from motionrt.engines import GalleryStore, PostgresStore, copy_gallery, open_store
 from motionrt.retrieval import Filter, Gallery
@@ -68,18 +70,19 @@ def recall(pairs: list[tuple[list[Any], list[Any]]]) -> float:
     return round(float(np.mean([len(set(a) & set(b)) / max(1, len(b)) for a, b in pairs])), 4)
 
 
-def measured(engine: str, count: int, *, graph: bool) -> dict[str, Any]:
+def measured(engine: str, count: int, *, asked: int, graph: bool) -> dict[str, Any]:
     """All figures of one engine and size."""
     from motionrt.motion.attributes import ATTRIBUTES
 
     gallery = gallery_of(vectors_of(count, noise=False))
-    queries = vectors_of(QUERIES, noise=False, seed=99)
+    queries = vectors_of(asked, noise=False, seed=99)
     filters = [Filter(), *(Filter(where=f"{ATTRIBUTES[0]} < {share}") for share in SHARES)]
     told: dict[str, Any] = {"engine": engine, "windows": count}
     with tempfile.TemporaryDirectory() as place, address_of(engine, Path(place)) as address:
         store = open_store(address, STAMP)
-        seconds = timed(lambda: copy_gallery(gallery, store))[1]
-        told |= {"copy_s": seconds, "windows_per_s": round(count / seconds)}
+        _, spent, seconds = cpu(lambda: copy_gallery(gallery, store))
+        told |= {"copy_s": seconds, "copy_cpu_s": spent, "windows_per_s": round(count / seconds)}
+        print(json.dumps(told), flush=True)
         if graph and isinstance(store, PostgresStore):
             told["graph_s"] = timed(store.index)[1]
         store.close()
@@ -108,9 +111,10 @@ def main() -> None:
     parser.add_argument("engine", choices=("postgres", "milvus"))
     parser.add_argument("windows", type=int)
     parser.add_argument("--graph", action="store_true", help="the HNSW graph, too, of PostgreSQL")
+    parser.add_argument("--queries", type=int, default=QUERIES)
     parser.add_argument("-o", "--out", type=Path)
     arguments = parser.parse_args()
-    told = measured(arguments.engine, arguments.windows, graph=arguments.graph)
+    told = measured(arguments.engine, arguments.windows, asked=arguments.queries, graph=arguments.graph)
     print(json.dumps(told, indent=1))
     if arguments.out is not None:
         arguments.out.write_text(json.dumps(told, indent=1) + "\n", encoding="utf-8")

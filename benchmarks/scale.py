@@ -1,7 +1,9 @@
 """Galleries of 10,000 to 5,000,000 windows beside faiss, usearch and NumPy; and a library of 20,000 files that changes.
 
 python benchmarks/scale.py windows 10000 100000 1000000 -o docs/results/scale.json
-python benchmarks/scale.py windows 5000000 --exact-only -o ...
+python benchmarks/scale.py windows 1000000 --keep /tmp/scale --parts graphs --precision  # builds, which may take hours
+python benchmarks/scale.py windows 1000000 --keep /tmp/scale --parts queries rivals --precision  # on a quiet machine
+python benchmarks/scale.py windows 5000000 --parts queries --precision -o ...
 python benchmarks/scale.py library 20000 -o ...
 python benchmarks/scale.py kills 20000 -o ...
 
@@ -23,7 +25,8 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -36,6 +39,7 @@ from motionrt.retrieval.records import WINDOW_TYPE, ModelStamp
 from motionrt.retrieval.strings import Strings
 
 WIDTH, QUERIES = 256, 40
+PARTS = ("graphs", "queries", "rivals", "growth")
 STAMP = ModelStamp("benchmark", "b" * 64)
 
 
@@ -104,98 +108,135 @@ def memory() -> int:
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss // 1024
 
 
-def windows(count: int, *, noise: bool, exact_only: bool, precisions: Sequence[str]) -> dict[str, Any]:
-    """All figures of one size."""
+def windows(count: int, place: Path, parts: Sequence[str], *, noise: bool, precisions: Sequence[str]) -> dict[str, Any]:
+    """All figures of one size; what was built for it stays in the folder, and is not built again."""
+    folder = place / "gallery"
     told: dict[str, Any] = {"windows": count, "noise": noise}
-    vectors = vectors_of(count, noise=noise)
+    if not folder.is_dir():
+        made = gallery_of(vectors_of(count, noise=noise))
+        _, told["save_cpu_s"], told["save_s"] = cpu(lambda: made.save(folder))
+        del made
+    told["disk_mb"] = round(sum(path.stat().st_size for path in folder.iterdir() if path.suffix != ".faiss") / 1e6, 1)
+    opens = [timed(lambda: Gallery.open(folder))[1] for _ in range(9)]
+    told["open_ms"] = round(1000 * float(np.median(opens)), 1)
+    gallery = Gallery.open(folder)
     queries = vectors_of(QUERIES, noise=noise, seed=99)
-    with tempfile.TemporaryDirectory(dir=os.environ.get("MOTIONRT_SCRATCH")) as place:
-        folder = Path(place) / "gallery"
-        told["save_s"] = timed(lambda: gallery_of(vectors).save(folder))[1]
-        told["disk_mb"] = round(disk(folder) / 1e6, 1)
-        opens = [timed(lambda: Gallery.open(folder))[1] for _ in range(7)]
-        told["open_ms"] = round(1000 * float(np.median(opens)), 1)
-        gallery = Gallery.open(folder)
+    if "graphs" in parts:
+        told |= graphs_of(gallery, place)
+    if "queries" in parts:
         told["prepare_s"] = timed(gallery.prepare)[1]
-        told |= queries_of(gallery, vectors, queries, exact_only=exact_only)
-        told |= growth_of(gallery, count, noise=noise)
-        told["precision"] = {}
-        for precision in precisions:
-            told["precision"][precision] = packed(folder, precision, queries)
-    told["memory_mb"] = memory()
+        told["memory_mb"] = memory()
+        told |= queries_of(gallery, queries)
+        if "rivals" in parts:
+            told |= contest(gallery, queries, place)
+    if "growth" in parts:
+        with copied(folder) as own:
+            told |= growth_of(Gallery.open(own), count, noise=noise)
+    if precisions:
+        with copied(folder) as own:
+            told["precision"] = {precision: packed(folder, own, precision, queries) for precision in precisions}
     return told
 
 
-def queries_of(gallery: Gallery, vectors: np.ndarray, queries: np.ndarray, *, exact_only: bool) -> dict[str, Any]:
-    """Milliseconds a query, of motionrt and its rivals, and what approximate ones find."""
-    exact = {"motionrt": lambda q: gallery.nearest(q, 10), "numpy": lambda q: np.argpartition(vectors @ q, -10)[-10:]}
-    approximate: dict[str, Callable[[np.ndarray], Any]] = {}
-    told: dict[str, Any] = {}
-    if not exact_only:
-        rivals(vectors, exact, approximate, told)
-        told["approximate_build_s"] = {
-            "motionrt": timed(lambda: gallery.prepare(approximate=True))[1],
-            **told.pop("built"),
-        }
-        approximate["motionrt"] = lambda q: gallery.nearest(q, 10, approximate=True)
-    told["exact_ms"] = median(exact, queries)
-    told["text_search_ms"] = median(
-        {"motionrt": lambda q: find(gallery, "turns left", q, Search(anyway=True))}, queries
-    )
-    told["filtered_ms"] = {}
+@contextmanager
+def copied(folder: Path) -> Iterator[Path]:
+    """A gallery's files in a folder of their own, to be changed."""
+    with tempfile.TemporaryDirectory(dir=folder.parent) as place:
+        yield Path(shutil.copytree(folder, Path(place) / "gallery", ignore=shutil.ignore_patterns("*.faiss")))
+
+
+def queries_of(gallery: Gallery, queries: np.ndarray) -> dict[str, Any]:
+    """Milliseconds of a question to the gallery alone, by embedding, by text, and behind filters."""
+    told: dict[str, Any] = {"exact_ms": median({"motionrt": lambda q: gallery.nearest(q, 10)}, queries)["motionrt"]}
+    calls = {"by text": lambda q: find(gallery, "turns left", q, Search(anyway=True))}
     for share in (50, 5, 0.5):
         search = Search(weights=EMBEDDING_ONLY, filter=Filter(where=f"turn < {share}"), anyway=True)
-        folders = Search(weights=EMBEDDING_ONLY, filter=Filter(folder="0007"), anyway=True)
-        calls = {f"where {share} %": lambda q, s=search: find(gallery, "walk", q, s)}
-        if share == 5:
-            calls["folder 1 %"] = lambda q, s=folders: find(gallery, "walk", q, s)
-        told["filtered_ms"] |= median(calls, queries)
-    if approximate:
-        told["approximate_ms"] = median(approximate, queries)
-        best = [set(gallery.nearest(q, 10).tolist()) for q in queries]
-        told["recall_at_10"] = {
-            name: round(
-                float(
-                    np.mean(
-                        [len(set(np.asarray(call(q)).tolist()) & b) / 10 for q, b in zip(queries, best, strict=True)]
-                    )
-                ),
-                4,
-            )
-            for name, call in approximate.items()
-        }
+        calls[f"where {share} %"] = lambda q, s=search: find(gallery, "walk", q, s)
+    folders = Search(weights=EMBEDDING_ONLY, filter=Filter(folder="0007"), anyway=True)
+    calls["folder 1 %"] = lambda q: find(gallery, "walk", q, folders)
+    told["search_ms"] = {name: median({name: call}, queries)[name] for name, call in calls.items()}
     return told
 
 
-def rivals(vectors: np.ndarray, exact: dict[str, Any], approximate: dict[str, Any], told: dict[str, Any]) -> None:
-    """Faiss and usearch, as they are used plainly."""
-    built: dict[str, float] = {}
-    try:
+def contest(gallery: Gallery, queries: np.ndarray, place: Path) -> dict[str, Any]:
+    """Milliseconds of motionrt and its rivals in turn, and what approximate ones find."""
+    vectors = np.array(gallery.embeddings)
+    exact: dict[str, Callable[[np.ndarray], Any]] = {
+        "motionrt": lambda q: gallery.nearest(q, 10),
+        "numpy": lambda q: np.argpartition(vectors @ q, -10)[-10:],
+    }
+    with suppress(ImportError):
         import faiss
 
         flat = faiss.IndexFlatIP(WIDTH)
         flat.add(vectors)
         exact["faiss flat"] = lambda q: flat.search(q[None], 10)[1][0]
-        graph = faiss.index_factory(WIDTH, "HNSW32,SQ8", faiss.METRIC_INNER_PRODUCT)
-        graph.hnsw.efSearch = 64
+    told: dict[str, Any] = {"exact_in_turn_ms": median(exact, queries[:16])}
+    best = [set(gallery.nearest(q, 10).tolist()) for q in queries]
+    approximate: dict[str, Callable[[np.ndarray], Any]] = {}
+    if any((place / "gallery").glob("*.faiss")):
+        gallery.prepare(approximate=True)
+        approximate["motionrt"] = lambda q: gallery.nearest(q, 10, approximate=True)
+    approximate |= rivals(vectors, place, build=False)[0]
+    told["approximate_ms"] = median(approximate, queries)
+    told["recall_at_10"] = {
+        name: round(float(np.mean([len(_set(call(q)) & b) / 10 for q, b in zip(queries, best, strict=True)])), 4)
+        for name, call in approximate.items()
+    }
+    return told
 
-        def build() -> None:
-            graph.train(vectors[:50_000])
-            graph.add(vectors)
 
-        built["faiss HNSW32,SQ8"] = timed(build)[1]
-        approximate["faiss HNSW32,SQ8"] = lambda q: graph.search(q[None], 10)[1][0]
-    except ImportError:
-        print("faiss is not installed", file=sys.stderr)
-    try:
+def _set(found: Any) -> set[int]:
+    return set(np.asarray(found).tolist())
+
+
+def graphs_of(gallery: Gallery, place: Path) -> dict[str, Any]:
+    """Processor's seconds of all graphs, built and kept."""
+    told = {"motionrt": cpu(lambda: gallery.prepare(approximate=True))[1]}
+    return {"graph_cpu_s": told | rivals(np.array(gallery.embeddings), place, build=True)[1]}
+
+
+def rivals(
+    vectors: np.ndarray, place: Path, *, build: bool
+) -> tuple[dict[str, Callable[[np.ndarray], Any]], dict[str, float]]:
+    """The graphs of faiss and usearch, as they are used plainly; those that were kept, or all."""
+    calls: dict[str, Callable[[np.ndarray], Any]] = {}
+    spent: dict[str, float] = {}
+    with suppress(ImportError):
+        import faiss
+
+        file = place / "hnsw.faiss"
+        if file.is_file() or build:
+
+            def made() -> Any:
+                if file.is_file():
+                    return faiss.read_index(str(file))
+                graph = faiss.index_factory(WIDTH, "HNSW32,SQ8", faiss.METRIC_INNER_PRODUCT)
+                graph.train(vectors[:50_000])
+                graph.add(vectors)
+                faiss.write_index(graph, str(file))
+                return graph
+
+            graph, spent["faiss HNSW32,SQ8"], _ = cpu(made)
+            graph.hnsw.efSearch = 64
+            calls["faiss HNSW32,SQ8"] = lambda q: graph.search(q[None], 10)[1][0]
+    with suppress(ImportError):
         from usearch.index import Index
 
-        index = Index(ndim=WIDTH, metric="ip", dtype="f16")
-        built["usearch f16"] = timed(lambda: index.add(np.arange(len(vectors)), vectors))[1]
-        approximate["usearch f16"] = lambda q: index.search(q, 10).keys
-    except ImportError:
-        print("usearch is not installed", file=sys.stderr)
-    told["built"] = built
+        kept = place / "graph.usearch"
+        if kept.is_file() or build:
+            index = Index(ndim=WIDTH, metric="ip", dtype="f16")
+
+            def filled() -> None:
+                if kept.is_file():
+                    index.load(str(kept))
+                    return
+                index.add(np.arange(len(vectors)), vectors)
+                index.save(str(kept))
+
+            spent["usearch f16"] = cpu(filled)[1]
+            calls["usearch f16"] = lambda q: index.search(q, 10).keys
+    return calls, spent
 
 
 def growth_of(gallery: Gallery, count: int, *, noise: bool) -> dict[str, Any]:
@@ -223,13 +264,15 @@ def growth_of(gallery: Gallery, count: int, *, noise: bool) -> dict[str, Any]:
     return told
 
 
-def packed(folder: Path, precision: str, queries: np.ndarray) -> dict[str, Any]:
-    """Disk, time and recall of fewer bits, against float32 of the same gallery."""
-    plain = Gallery.open(folder).compact("float32").prepare()
+def packed(folder: Path, own: Path, precision: str, queries: np.ndarray) -> dict[str, Any]:
+    """Disk, time and recall of fewer bits, written to ``own``, against the gallery in ``folder``."""
+    plain = Gallery.open(folder).prepare()
     exact = [plain.nearest(q, 10).tolist() for q in queries]
-    small = plain.compact(precision).prepare()
+    shutil.rmtree(own)
+    small = Gallery.open(Path(shutil.copytree(folder, own, ignore=shutil.ignore_patterns("*.faiss"))))
+    small = small.compact(precision).prepare()
     found = [small.nearest(q, 10).tolist() for q in queries]
-    (file,) = folder.glob("embeddings-*")
+    (file,) = own.glob("embeddings-*")
     return {
         "bytes_a_window": round(file.stat().st_size / len(small.windows), 1),
         "exact_ms": median({"motionrt": lambda q: small.nearest(q, 10)}, queries)["motionrt"],
@@ -337,13 +380,25 @@ def killed(count: int, kills: int, between: Sequence[float]) -> dict[str, Any]:
     return {"files": count, "kills": died, "left_to_index": report.indexed, "lost": lost}
 
 
+@contextmanager
+def scratch(keep: Path | None, name: str) -> Iterator[Path]:
+    """A folder that stays, or goes afterwards."""
+    if keep is not None:
+        (keep / name).mkdir(parents=True, exist_ok=True)
+        yield keep / name
+        return
+    with tempfile.TemporaryDirectory(dir=os.environ.get("MOTIONRT_SCRATCH")) as place:
+        yield Path(place)
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
     parser.add_argument("what", choices=("windows", "library", "kills"))
     parser.add_argument("sizes", type=int, nargs="+")
     parser.add_argument("--noise", action="store_true", help="evenly spread vectors, the worst case")
-    parser.add_argument("--exact-only", action="store_true", help="no graphs, which take minutes to hours")
+    parser.add_argument("--parts", nargs="*", choices=PARTS, default=PARTS, help="what is measured; graphs take long")
     parser.add_argument("--precision", nargs="*", default=["float16", "int8"])
+    parser.add_argument("--keep", type=Path, help="a folder for galleries and graphs that are used again")
     parser.add_argument("--kills", type=int, default=20)
     parser.add_argument(
         "--between", type=float, nargs=2, default=(2, 8), help="seconds until a kill, at least and most"
@@ -358,9 +413,10 @@ def main() -> None:
         elif arguments.what == "kills":
             told.append(killed(size, arguments.kills, arguments.between))
         else:
-            told.append(
-                windows(size, noise=arguments.noise, exact_only=arguments.exact_only, precisions=arguments.precision)
-            )
+            with scratch(arguments.keep, f"{size}{'-noise' if arguments.noise else ''}") as place:
+                told.append(
+                    windows(size, place, arguments.parts, noise=arguments.noise, precisions=arguments.precision)
+                )
         print(json.dumps(told[-1], indent=1), flush=True)
     if arguments.out is not None:
         arguments.out.write_text(json.dumps(told, indent=1) + "\n", encoding="utf-8")

@@ -22,14 +22,16 @@ _TINY = np.float32(1e-30)
 
 @dataclass(frozen=True, eq=False)
 class Codes:
-    """Rows ``v`` as ``scale * (code - 128)``, codes 1 to 255.
+    """Rows ``v`` as ``scale * (code - 128)``, codes 1 to 255; of 4 bits ``scale * (code - 8)``, codes 1 to 15.
 
     Attributes:
         width: ``d``, numbers that a float32 score is the sum of.
         scales: ``(N,)`` float32.
-        residual: no row is further than this from what its code stands for (L2 norm).
+        residual: no row is further than this, and what is ``missed``, from what its code stands for (L2 norm).
         longest: no row, and nothing a code stands for, is longer than this.
         coarsest: the largest of the scales.
+        bits: of a number.
+        missed: ``(N,)`` float32, what is known of each row beside ``residual``; None for nothing.
     """
 
     width: int
@@ -37,18 +39,20 @@ class Codes:
     coarsest: float
     residual: float
     longest: float
+    bits: int = 8
+    missed: FloatArray | None = None
 
     def error(self, query: CodedQuery) -> float:
-        """The most by which ``step * scanned`` can be off: from the float32 score of the rows themselves.
+        """The most by which ``step * scanned`` can be off, without ``missed``: from the float32 score of the rows.
 
         ``x.v - step z.w = (x - step z).v + step z.(v - w)`` for query x, its code z, row v and its code's value w, by
         Cauchy and Schwarz; and the rounding of both products, in whatever order they add: (d + 2) roundings of
-        ``|x||v|`` in float32, and in the scan of the sum of ``scale |z| (255 + 128 + 128)``: some kernels add the
-        unsigned codes first and take 128 of them off at the end.
+        ``|x||v|`` in float32, and in the scan of the sum of ``scale |z| (255 + 128 + 128)``, of 4 bits
+        ``scale |z| (15 + 8 + 8)``: some kernels add the unsigned codes first and take the zeros off at the end.
         """
         rounding = (self.width + 8) * ROUNDING
         exact = query.residual * self.longest + query.length * (self.residual + rounding * self.longest)
-        return 1.001 * (exact + rounding * 512.0 * self.coarsest * query.step * query.absolute)
+        return 1.001 * (exact + rounding * 2.0 ** (self.bits + 1) * self.coarsest * query.step * query.absolute)
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,7 +94,7 @@ def code_rows(vectors: Vectors, out: ByteArray, narrowed: Narrowing | None = Non
         part = slice(start, start + _CHUNK)
         with np.errstate(over="ignore", invalid="ignore"):
             rows = vectors[part] if narrowed is None else narrowed(vectors[part])
-            length = _longest(rows)
+            length = longest_of(rows)
         if not length < LONGEST:  # nor is NaN
             return None
         missed = _code(rows, out[part], scales[part])
@@ -110,7 +114,7 @@ def _code(rows: FloatArray, out: ByteArray, scales: FloatArray) -> float:
     whole += ZERO
     out[:, : rows.shape[1]] = whole
     out[:, rows.shape[1] :] = ZERO
-    return _longest(difference)
+    return longest_of(difference)
 
 
 def code_query(query: npt.NDArray[np.float64]) -> CodedQuery | None:
@@ -126,8 +130,15 @@ def code_query(query: npt.NDArray[np.float64]) -> CodedQuery | None:
     return CodedQuery(numbers, step, residual, _norm(query) + residual, float(np.abs(whole).sum()))
 
 
-def _longest(rows: FloatArray) -> float:
-    return float(np.sqrt(np.einsum("nd,nd->n", rows, rows).max()))
+def lengths(rows: FloatArray) -> FloatArray:
+    """``(N,)`` L2 norms of rows ``(N, d)``."""
+    result: FloatArray = np.sqrt(np.einsum("nd,nd->n", rows, rows))
+    return result
+
+
+def longest_of(rows: FloatArray) -> float:
+    """The largest of the rows' L2 norms; NaN where one is."""
+    return float(lengths(rows).max())
 
 
 def _norm(vector: npt.NDArray[np.float64]) -> float:

@@ -78,7 +78,7 @@ class VectorIndex(Protocol):
 class ExactIndex:
     """The answer of comparing every vector in float32; equal vectors stand in the order of their index.
 
-    A large index copies itself into 8 bits (:mod:`~motionrt.retrieval.coded_scan`) when it is asked again: then the
+    A large index copies itself into 8 or 4 bits (:mod:`~motionrt.retrieval.coded_scan`) when it is asked again: then the
     scan is 3 to 15 times as fast, the more the larger it is, and the answer the same to the last bit. But the copy
     takes as long as some forty float32 scans. So it is made at the second query where that is a matter of
     milliseconds, and from 20,000 vectors on after 32; :meth:`prepare` makes it at once. A question for a large part of

@@ -1,4 +1,4 @@
-"""The 8-bit scan never changes an answer: against plain float32 and float64, on galleries made to break it."""
+"""The scan in few bits never changes an answer: against plain float32 and float64, on galleries made to break it."""
 
 from __future__ import annotations
 
@@ -18,6 +18,7 @@ from motionrt.retrieval import coded_scan, narrow, search
 from motionrt.retrieval.coded_scan import CodedScan
 from motionrt.retrieval.codes import LONGEST, code_query, code_rows, padded
 from motionrt.retrieval.narrow import Directions
+from motionrt.retrieval.nibbles import code_nibbles
 from motionrt.retrieval.search import CODED_FROM, CODED_LATE_FROM, ExactIndex, nearest_per_group
 
 Make = Callable[[np.random.Generator, int, int], np.ndarray]
@@ -83,16 +84,19 @@ def plain_answer(vectors: np.ndarray, query: np.ndarray, k: int) -> tuple[list[i
     return order.tolist(), products[order].tolist()
 
 
-def prepared(vectors: np.ndarray, monkeypatch: pytest.MonkeyPatch) -> ExactIndex:
-    """Coded, and narrowed, at any size."""
+def prepared(vectors: np.ndarray, monkeypatch: pytest.MonkeyPatch, bits: int = 8) -> ExactIndex:
+    """Coded at any size: in 8 bits and narrowed, or in 4 bits."""
     monkeypatch.setattr(search, "CODED_FROM", 1)
     monkeypatch.setattr(coded_scan, "NARROW_FROM", 1)
-    monkeypatch.setattr(narrow, "WIDTHS", (4, 16, 64, 128))
+    monkeypatch.setattr(coded_scan, "NIBBLES_FROM", 1)
+    monkeypatch.setattr(CodedScan, "_narrows_down", lambda _: bits == 4)
+    monkeypatch.setattr(narrow, "WIDTHS", (4, 16, 64, 128) if bits == 8 else ())
     index = ExactIndex(vectors)
     index.prepare()
     return index
 
 
+@pytest.mark.parametrize("bits", [8, 4])
 @pytest.mark.parametrize("make", GALLERIES)
 @settings(max_examples=15, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(
@@ -104,13 +108,21 @@ def prepared(vectors: np.ndarray, monkeypatch: pytest.MonkeyPatch) -> ExactIndex
     seed=st.integers(0, 2**31),
 )
 def test_the_answer_is_that_of_float32_bit_for_bit(
-    make: Make, count: int, width: int, k: int, aim: float, share: float, seed: int, monkeypatch: pytest.MonkeyPatch
+    make: Make,
+    bits: int,
+    count: int,
+    width: int,
+    k: int,
+    aim: float,
+    share: float,
+    seed: int,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     random = np.random.default_rng(seed)
     vectors = np.ascontiguousarray(make(random, count, width), dtype=np.float32)
     query = unit(vectors[count // 2] + aim * random.normal(size=width) / width**0.5)
     allowed = random.random(count) < share
-    found, scores = prepared(vectors, monkeypatch).nearest(query, k, None if share == 1 else allowed)
+    found, scores = prepared(vectors, monkeypatch, bits).nearest(query, k, None if share == 1 else allowed)
     expected, values = plain_answer(vectors[allowed], query, k)
     assert (found.tolist(), scores.tolist()) == (np.flatnonzero(allowed)[expected].tolist(), values)
 
@@ -147,6 +159,50 @@ def test_the_scan_is_as_close_to_the_float64_product_as_promised(make: Make, see
     assert np.linalg.norm(stands_for[:, :96] - vectors, axis=1).max() <= codes.residual
 
 
+@given(st.sampled_from(GALLERIES), st.integers(0, 2**31), st.sampled_from([95, 96, 256]))
+@settings(max_examples=40, deadline=None)
+def test_what_4_bits_miss_of_every_row_is_known(make: Make, seed: int, width: int) -> None:
+    random = np.random.default_rng(seed)
+    vectors = np.ascontiguousarray(make(random, 100, width), dtype=np.float32)
+    query = random.normal(size=width).astype(np.float32)
+    memory = np.empty((100, padded(width) // 2), dtype=np.uint8)
+    codes, coded = code_nibbles(vectors, memory), code_query(query.astype(np.float64))
+    assert codes is not None
+    assert codes.missed is not None
+    assert coded is not None
+    numbers = np.stack([memory & 15, memory >> 4], axis=-1).reshape(100, -1).astype(np.float64) - 8
+    assert np.abs(numbers).max() <= 7
+    stands_for = numbers * codes.scales[:, None]
+    assert np.all(np.linalg.norm(stands_for[:, :width] - vectors, axis=1) <= codes.missed)
+    scanned = coded.step * (stands_for @ coded.numbers[0].astype(np.float64))
+    exact = vectors.astype(np.float64) @ query.astype(np.float64)
+    assert np.all(np.abs(scanned - exact) <= codes.error(coded) + coded.length * codes.missed)
+
+
+def test_a_large_library_without_few_directions_is_scanned_in_4_bits(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(coded_scan, "NARROW_FROM", 6000)
+    monkeypatch.setattr(coded_scan, "_FEW", 4)  # of so few vectors a larger share remains
+    random = np.random.default_rng(11)
+    vectors = noise(random, 6000, 256)
+    scan = CodedScan.build(vectors)
+    assert scan is not None
+    assert scan.width == 128
+    for query in [*vectors[:3], *noise(random, 3, 256)]:
+        found = scan.candidates(query, 10)
+        assert found is not None
+        assert set(plain_answer(vectors, query, 10)[0]) <= set(found.tolist())
+
+
+def test_vectors_that_4_bits_cannot_tell_apart_are_scanned_in_8(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(coded_scan, "NARROW_FROM", 6000)
+    monkeypatch.setattr(narrow, "WIDTHS", ())
+    random = np.random.default_rng(12)
+    vectors = unit(noise(random, 1, 256) + 0.3 / 16 * random.normal(size=(6000, 256)))
+    scan = CodedScan.build(vectors)
+    assert scan is not None
+    assert scan.width == 256
+
+
 @pytest.mark.parametrize("width", [256, 300])
 def test_a_library_in_a_subspace_is_scanned_in_fewer_numbers(width: int, monkeypatch: pytest.MonkeyPatch) -> None:
     random = np.random.default_rng(9)
@@ -167,7 +223,7 @@ def test_noise_is_not_narrowed(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(coded_scan, "NARROW_FROM", 1)
     scan = CodedScan.build(noise(np.random.default_rng(0), 2000, 256))
     assert scan is not None
-    assert scan.width == 256
+    assert scan.width in (128, 256)  # bytes: all numbers, in 4 or 8 bits
 
 
 @given(st.sampled_from(GALLERIES), st.integers(0, 2**31), st.sampled_from([0.0, 0.1, 100.0]))
@@ -249,7 +305,7 @@ def test_a_session_that_reads_the_codes_themselves_keeps_them(monkeypatch: pytes
     class Reading:
         """Scores straight from the memory that it was given, as an onnxruntime without rearranged weights would."""
 
-        def __init__(self, codes: np.ndarray, scales: np.ndarray, _: object) -> None:
+        def __init__(self, codes: np.ndarray, scales: np.ndarray, *_: object) -> None:
             self.codes, self.scales = codes, scales
 
         def run(self, _: None, feeds: dict[str, np.ndarray]) -> list[np.ndarray]:

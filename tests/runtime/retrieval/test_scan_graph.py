@@ -47,3 +47,19 @@ def test_onnxruntime_computes_the_product(width: int) -> None:
     query[0, 0] = 127
     exact = (query @ (codes[:, 0].astype(np.float64) - 128).T) * scales
     np.testing.assert_allclose(session.run(None, {"query": query})[0], exact, rtol=1e-5, atol=1.0)
+
+
+@pytest.mark.parametrize("width", [16, 128, 256])
+def test_onnxruntime_computes_the_product_of_4_bits(width: int) -> None:
+    import onnxruntime
+
+    random = np.random.default_rng(1)
+    codes = random.integers(1, 16, (200, width), dtype=np.uint8)
+    packed = np.ascontiguousarray((codes[:, ::2] | (codes[:, 1::2] << 4))[:, None])
+    options = onnxruntime.SessionOptions()
+    values = [onnxruntime.OrtValue.ortvalue_from_numpy(array) for array in (packed, np.ones(200, np.float32))]
+    options.add_external_initializers(["codes", "scales"], values)
+    session = onnxruntime.InferenceSession(scan_model(200, width, 4), options, providers=["CPUExecutionProvider"])
+    query = random.integers(-127, 128, (1, width)).astype(np.float32)
+    query[0, 0] = 127
+    np.testing.assert_allclose(session.run(None, {"query": query})[0], query @ (codes.astype(np.float64) - 8).T, atol=1)
