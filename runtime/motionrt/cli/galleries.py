@@ -55,7 +55,7 @@ def add(commands: Any) -> None:
         metavar="DIR",
         help="gallery (default: FOLDER/.motionrt-gallery), or the address of a database",
     )
-    build.add_argument("--on", metavar="ADDRESS", help="a Dask scheduler, dask://host:8786 (extra cluster)")
+    build.add_argument("--on", metavar="ADDRESS", help="a Dask scheduler, dask://host:8786 (extra cluster); no Ray")
     add_reading(build)
     update = command(parts, "update", run_update, UPDATE)
     update.add_argument("gallery", type=Path, help="a gallery, or the folder that was indexed")

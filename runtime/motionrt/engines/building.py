@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from motionrt.engines.batches import Batch, Done, index_batch
+from motionrt.engines.dask import check_scheduler, on_dask
 from motionrt.engines.objects import find_objects
 from motionrt.engines.opening import open_store
 from motionrt.engines.store import GalleryStore
@@ -74,6 +75,8 @@ def index_into(
         MissingDependencyError: the extra ``cluster``, or the store's, is not installed.
     """
     began = time.perf_counter()
+    if on is not None:
+        check_scheduler(on)
     files, model = find_objects(url), open_model()
     stamp = ModelStamp(model.name, model.fingerprint)
     store = open_store(address, stamp)
@@ -110,8 +113,6 @@ def _due(files: Mapping[str, Stamp], store: GalleryStore) -> Iterator[tuple[str,
 def _run(batches: Sequence[Batch], on: str | None) -> Iterator[tuple[Batch, Done]]:
     if on is None:
         return ((batch, index_batch(batch)) for batch in batches)
-    from motionrt.engines.dask import on_dask
-
     return on_dask(on, batches)
 
 

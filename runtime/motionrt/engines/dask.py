@@ -17,6 +17,18 @@ _AHEAD = 2  # batches that wait for each thread of the cluster
 _PATIENCE_S = 30  # for the scheduler, and for its first worker
 
 
+def check_scheduler(address: str) -> None:
+    """Refuse an address that is none of a Dask scheduler.
+
+    Raises:
+        InvalidInputError: no such kind of address, ``ray://`` among them.
+    """
+    if address.partition("://")[0] not in SCHEMES:
+        raise InvalidInputError(
+            f"{shown(address)} is no Dask scheduler, and others, such as Ray, are not known: dask://host:8786"
+        )
+
+
 def on_dask(address: str, batches: Iterable[Batch]) -> Iterator[tuple[Batch, Done]]:
     """What becomes of the batches, in the order in which they are done.
 
@@ -28,12 +40,9 @@ def on_dask(address: str, batches: Iterable[Batch]) -> Iterator[tuple[Batch, Don
         batches: taken as the cluster gets done with those before.
 
     Raises:
-        InvalidInputError: no such kind of address.
         EngineError: the cluster cannot be reached, or the store cannot be from there.
         MissingDependencyError: distributed is not installed.
     """
-    if address.partition("://")[0] not in SCHEMES:
-        raise InvalidInputError(f"{shown(address)} is no Dask scheduler: they are called dask://host:8786")
     distributed = package("distributed", "a cluster", "cluster")
     with _client(distributed, address) as client:
         waiting, of = iter(batches), {}

@@ -78,12 +78,13 @@ class VectorIndex(Protocol):
 class ExactIndex:
     """The answer of comparing every vector in float32; equal vectors stand in the order of their index.
 
-    A large index copies itself into 8 or 4 bits (:mod:`~motionrt.retrieval.coded_scan`) when it is asked again: then the
-    scan is 3 to 15 times as fast, the more the larger it is, and the answer the same to the last bit. But the copy
+    A large index copies itself into 8 or 4 bits (:mod:`~motionrt.retrieval.coded_scan`) when it is asked again: then
+    the scan is 3 to 15 times as fast, the more the larger it is, and the answer the same to the last bit. But the copy
     takes as long as some forty float32 scans. So it is made at the second query where that is a matter of
     milliseconds, and from 20,000 vectors on after 32; :meth:`prepare` makes it at once. A question for a large part of
     the vectors (more than one in 16, or 4,096), or one that the copy cannot narrow down to a quarter of them, is
-    answered in float32 alone. May be used from several threads.
+    answered in float32 alone. From 200,000 vectors on a scan takes two threads, where there are two cores. May be used
+    from several threads.
 
     Args:
         vectors: ``(N, d)`` float32, kept, not copied, when its rows are contiguous; memory-mapped ones and those that
