@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from motionrt.motion import Motion
 from motionrt.motion.feet.lock import lock_feet
+from motionrt.motion.feet.sliding import step_where_sliding
+
+CLEARANCE, SWINGS_FROM = 0.03, 0.6  # metres and m/s: a generated foot that swings drags more than a recorded one
 
 
 def finished(motion: Motion, foot_lock: bool = True) -> Motion:
@@ -12,5 +15,7 @@ def finished(motion: Motion, foot_lock: bool = True) -> Motion:
 
 
 def locked(motion: Motion, foot_lock: bool = True) -> Motion:
-    """Where it is, and standing feet stand still."""
-    return lock_feet(motion) if foot_lock else motion
+    """Where it is; standing feet stand still, and feet that slid take steps."""
+    if not foot_lock:
+        return motion
+    return lock_feet(step_where_sliding(motion), clearance=CLEARANCE, swings_from=SWINGS_FROM)

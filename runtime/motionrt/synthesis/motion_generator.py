@@ -132,7 +132,10 @@ class MotionGenerator:
         features = self.features(canvas, sampling, number)
         if wanted.loop:
             return _closed(features, sampling.foot_lock)
-        motion = as_motion(ego77.decode(features))[: wanted.frames]
+        joints = ego77.decode(features)
+        if as_many(len(joints)) < wanted.frames:  # the longest text: the last frame goes on as it went
+            joints = np.concatenate([joints, 2 * joints[-1:] - joints[-2:-1]])
+        motion = as_motion(joints)[: wanted.frames]
         if wanted.constraints.kept:
             return locked(_where(wanted.constraints.kept[0].motion, motion), sampling.foot_lock)
         if wanted.constraints.corrects:
@@ -148,9 +151,13 @@ def _where(clip: Motion, motion: Motion) -> Motion:
 
 def as_motion(joints: Array) -> Motion:
     """Joints ``(F, 24, 3)`` at 20 fps to a motion at 30 fps on the bones of ``smpl24``."""
-    ratio = ego77.FPS / sinc135.FPS
-    count = int((len(joints) - 1) / ratio + 1e-6) + 1
-    return from_positions(between(joints, np.arange(count) * ratio), sinc135.FPS)
+    times = np.arange(as_many(len(joints))) * (ego77.FPS / sinc135.FPS)
+    return from_positions(between(joints, times), sinc135.FPS)
+
+
+def as_many(frames: int) -> int:
+    """Frames at 30 fps from the first to the last of so many at 20 fps."""
+    return int((frames - 1) * sinc135.FPS / ego77.FPS + 1e-6) + 1
 
 
 def between(values: Array, times: npt.NDArray[np.floating]) -> Array:

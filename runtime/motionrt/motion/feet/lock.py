@@ -37,6 +37,7 @@ def lock_feet(
     blend_s: float = BLEND_S,
     max_drop: float = MAX_DROP,
     clearance: float = CLEARANCE,
+    swings_from: float = LOOSE_SPEED,
 ) -> Motion:
     """``motion`` with feet that stand still while they stand and swing clear of the floor.
 
@@ -50,6 +51,7 @@ def lock_feet(
         blend_s: seconds over which corrections fade after and before a contact.
         max_drop: metres that the pelvis may sink so that a leg reaches.
         clearance: metres that a swinging toe keeps above the floor; a slow one keeps none, but is never below it.
+        swings_from: m/s above which a toe swings; all of the clearance is kept at twice that.
 
     Raises:
         InvalidInputError: another skeleton, or contacts of another shape.
@@ -63,7 +65,7 @@ def lock_feet(
         raise InvalidInputError(f"contacts must have the shape ({motion.frames}, 2), not {planted.shape}")
     positions = motion.positions().astype(np.float64)
     offset = _offsets(toes, planted, _calm(speed), floor if level else None, blend_s * motion.fps)
-    offset[..., 1] += lift(toes[..., 1] + offset[..., 1] - floor, speed, clearance)
+    offset[..., 1] += lift(toes[..., 1] + offset[..., 1] - floor, speed, clearance, swings_from)
     drop = smooth_cover(needed_drop(positions, offset, planted, max_drop), max(1, round(blend_s * motion.fps / 2)))
     offset[..., 1] += drop[:, None]
     sunk = np.array([0, 1, 0]) * drop[:, None]
@@ -71,9 +73,9 @@ def lock_feet(
     return replace(motion, rotations=rotations, root=(motion.root - sunk).astype(np.float32))
 
 
-def lift(height: Array, speed: Array, clearance: float = CLEARANCE) -> Array:
+def lift(height: Array, speed: Array, clearance: float = CLEARANCE, swings_from: float = LOOSE_SPEED) -> Array:
     """Metres to raise toes ``height`` metres above the floor that move at ``speed`` m/s: not negative, and smooth."""
-    swings = np.clip((speed - LOOSE_SPEED) / LOOSE_SPEED, 0, 1)
+    swings = np.clip((speed - swings_from) / swings_from, 0, 1)
     swings = clearance * swings**2 * (3 - 2 * swings)
     short = swings - height
     return np.asarray((short + np.sqrt(short**2 + (swings / 2) ** 2)) / 2)
@@ -122,7 +124,7 @@ def _offsets(toes: Array, planted: BoolArray, calm: Array, level: float | None, 
     inside, weights = runs.flat(toes)[runs.inside], runs.flat(calm)[runs.inside]
     offset = np.zeros((toes.shape[0] * toes.shape[1], 3))
     offset[runs.inside] = _to_point(inside, runs.repeat(runs.mean(inside, weights)), level)
-    return np.ascontiguousarray(runs.shaped(_faded(offset, Runs.of(~planted), blend)))
+    return np.ascontiguousarray(runs.shaped(faded(offset, Runs.of(~planted), blend)))
 
 
 def _to_point(toe: Array, point: Array, level: float | None) -> Array:
@@ -133,7 +135,7 @@ def _to_point(toe: Array, point: Array, level: float | None) -> Array:
     return np.asarray(offset)
 
 
-def _faded(offset: Array, gaps: Runs, blend: float) -> Array:
+def faded(offset: Array, gaps: Runs, blend: float) -> Array:
     """Offsets that leave and reach every contact with the speed they have there: cubic Hermite tails."""
     out = offset.copy()
     span = np.clip(gaps.lengths + 1.0, 1.0, max(blend, 1.0))
