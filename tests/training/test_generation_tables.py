@@ -277,6 +277,7 @@ def test_the_command_judges_generations_and_baselines(corpus, tmp_path, monkeypa
         "chance": 0,
         "training clip of the nearest caption": 2,
         "test clip of the nearest caption": 2,
+        "its first pose, held": 2,
         "recorded test clips, own captions": 2,
         "recorded test clips, feet locked": 2,
     }
@@ -313,18 +314,26 @@ def test_the_shipped_prompts_are_forty_and_within_what_generation_takes() -> Non
 
 
 def test_the_page_of_prompts_leaves_out_what_was_not_measured() -> None:
-    rows = {"chance": prompts.by_chance(), "made": prompts.PromptRow(12, 50.0, 75.0, 1.5, 0.41, 9.0, 1.1, 0.5)}
+    rows = {
+        "chance": prompts.by_chance(),
+        "made": prompts.PromptRow(12, 50.0, 75.0, 1.5, skate_cm=0.41, jerk=9.0, fid=1.1),
+    }
     page = prompts.prompt_page(rows, ASKED, 3)
-    assert "| chance |  | 3.1 | 9.4 | 16.5 |  |  |  |  |" in page
-    assert "| made | 12 | 50.0 | 75.0 | 1.5 | 0.41 | 9.0 | 1.10 | 0.50 |" in page
+    assert "| chance |  | 3.1 | 9.4 | 16.5 |  |  |  |  |  |  |  |  |" in page
+    assert "| made | 12 | 50.0 | 75.0 | 1.5 | 0.41 |  |  | 9.0 |  |  |  | 1.10 |" in page
     assert json.dumps(prompts.as_json(rows, ASKED))
 
 
 def test_foot_skate_and_jerk_are_those_of_motions_on_their_floor() -> None:
     high = standing(30, fps=30)
     high = Motion(high.rotations, high.root + np.float32([0, 5, 0]), 30)
-    assert prompts.moved([high]) == (0.0, 0.0)
-    assert prompts.moved([walking(60, fps=30)])[0] > 1
+    found = prompts.moved([high])
+    assert found == {"skate_cm": 0, "jerk": 0, "energy": 0, "contact_speed": 0, "contact_share": 1}
+    walks = prompts.moved([walking(60, fps=30)])
+    assert walks["skate_cm"] > 1
+    assert walks["contact_speed"] > 0.1
+    still = prompts.moved(prompts.frozen([[walking(60, fps=30)]])[0])
+    assert still["energy"] == still["skate_cm"] == 0
 
 
 # -- body parts

@@ -10,6 +10,7 @@ from motionrt.metrics.locomotion import (
     foot_skate,
     jerk,
     keypoint_error,
+    motion_energy,
     path_deviation,
     standing_height,
     waypoint_distances,
@@ -27,7 +28,7 @@ from motionrt.metrics.protocols import (
 )
 from motionrt.metrics.ranking import RECALL_AT, Retrieval, Scores, ranks, retrieval, scores, text_scores
 from motionrt.metrics.temporal import localisation_accuracy, temporal_iou
-from motionrt.metrics.variety import diversity, multimodality
+from motionrt.metrics.variety import diversity, frechet_distance, multimodality
 from motionrt.metrics.walk_report import LocomotionMeasures
 
 __all__ = [
@@ -52,6 +53,7 @@ __all__ = [
     "end_error",
     "foot_skate",
     "footing",
+    "frechet_distance",
     "jerk",
     "keypoint_error",
     "least_similar_sum",
@@ -59,6 +61,7 @@ __all__ = [
     "matching",
     "matching_ranks",
     "most_dissimilar",
+    "motion_energy",
     "multimodality",
     "part_accuracy",
     "path_deviation",

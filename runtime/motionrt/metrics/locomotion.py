@@ -49,6 +49,13 @@ def jerk(positions: npt.ArrayLike, fps: float) -> float:
     return float(np.linalg.norm(third, axis=-1).mean())
 
 
+def motion_energy(positions: npt.ArrayLike, fps: float) -> float:
+    """Mean speed of the joints seen from the root, m/s; the root is joint 0 and its turn is not taken out."""
+    joints = _frames(positions, 2)
+    moved = np.diff(joints - joints[:, :1], axis=0) * fps
+    return float(np.linalg.norm(moved[:, 1:], axis=-1).mean())
+
+
 def path_distances(root_xz: npt.ArrayLike, path_xz: npt.ArrayLike) -> Floats:
     """``(F,)`` metres from each ground position ``(F, 2)`` to the polyline through ``(N >= 1, 2)``."""
     points, corners = _ground(root_xz, "root_xz"), _ground(path_xz, "path_xz")

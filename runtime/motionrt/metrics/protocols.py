@@ -25,6 +25,8 @@ from motionrt.metrics.ranking import (
 Choice = Callable[[npt.ArrayLike, int], npt.NDArray[np.int64]]
 """Similarity of texts and a number -> the indices, ascending, of so many texts."""
 
+_STARTS = 12  # sets that grow, each from a text of its own
+
 
 def all_pairs(similarity: npt.ArrayLike) -> Retrieval:
     """Protocol (a): the whole set as the gallery, only the paired item is correct."""
@@ -94,26 +96,55 @@ def most_dissimilar(text_similarity: npt.ArrayLike, size: int = 100) -> npt.NDAr
 def least_similar_sum(text_similarity: npt.ArrayLike, size: int = 100) -> npt.NDArray[np.int64]:
     """Indices, ascending, of ``size`` texts whose similarities to each other have the smallest sum.
 
-    This is the quadratic knapsack problem of the paper with equal weights, solved approximately: the text that is most
-    like the others leaves until ``size`` are left, then the swap of a text inside with one outside that lowers the sum
-    most is made until there is none. Deterministic; ties go to the lower index.
+    This is the quadratic knapsack problem of the paper with equal weights, solved approximately. From several sets the
+    swap of a text inside with one outside that lowers the sum most is made until there is none; the best of the ends
+    is taken. One start is what is left after the text that is most like the others has left again and again; the
+    others grow from the texts that are least like all, each time by the text least like the set. Deterministic; ties
+    go to the lower index.
     """
     matrix = checked_similarity(text_similarity)
     if size < 1:
         raise InvalidInputError(f"size must be at least 1, not {size}")
     pairs = (matrix + matrix.T) / 2
     np.fill_diagonal(pairs, 0.0)
+    alone = np.argsort(pairs.sum(axis=1), kind="stable")[:_STARTS]
+    starts = [_shrunk(pairs, size), *(_grown(pairs, int(text), size) for text in alone)]
+    ends = [_swapped(pairs, inside) for inside in starts]
+    best = min(ends, key=lambda inside: float(pairs[np.ix_(inside, inside)].sum()))
+    return np.flatnonzero(best).astype(np.int64)
+
+
+def _shrunk(pairs: Floats, size: int) -> npt.NDArray[np.bool_]:
+    """Who is left when the text most like the others leaves until `size` are left."""
     inside = np.ones(len(pairs), dtype=bool)
     sums = pairs.sum(axis=1)
     while inside.sum() > size:
         leaves = int(np.argmax(np.where(inside, sums, -np.inf)))
         inside[leaves] = False
         sums -= pairs[leaves]
+    return inside
+
+
+def _grown(pairs: Floats, first: int, size: int) -> npt.NDArray[np.bool_]:
+    """A text, and one after another those least like the set until there are `size`."""
+    inside = np.zeros(len(pairs), dtype=bool)
+    inside[first] = True
+    sums = pairs[first].copy()
+    while inside.sum() < min(size, len(pairs)):
+        enters = int(np.argmin(np.where(inside, np.inf, sums)))
+        inside[enters] = True
+        sums += pairs[enters]
+    return inside
+
+
+def _swapped(pairs: Floats, inside: npt.NDArray[np.bool_]) -> npt.NDArray[np.bool_]:
+    """The set after all swaps that lower its sum."""
+    sums = pairs[inside].sum(axis=0)
     while (swap := _best_swap(pairs, sums, inside)) is not None:
         leaves, enters = swap
         inside[leaves], inside[enters] = False, True
         sums += pairs[enters] - pairs[leaves]
-    return np.flatnonzero(inside).astype(np.int64)
+    return inside
 
 
 def _best_swap(pairs: Floats, sums: Floats, inside: npt.NDArray[np.bool_]) -> tuple[int, int] | None:

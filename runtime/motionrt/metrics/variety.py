@@ -1,4 +1,4 @@
-"""Diversity and multimodality of generated motions  [Guo et al. 2022, 5.1].
+"""Diversity, multimodality and Frechet distance of generated motions  [Guo et al. 2022, 5.1].
 
 Embeddings are those of one motion encoder, ``(..., d)``; distances are Euclidean, in its units. The draws are fixed by
 a seed, so that the same embeddings give the same figure.
@@ -31,6 +31,22 @@ def multimodality(embeddings: npt.ArrayLike, pairs: int = MULTIMODALITY_PAIRS, s
     """
     points, generator = _checked(embeddings, 3), np.random.default_rng(seed)
     return float(np.mean([_distances(group, pairs, generator).mean() for group in points]))
+
+
+def frechet_distance(found: npt.ArrayLike, recorded: npt.ArrayLike) -> float:
+    """FID: Frechet distance of the normal distributions fitted to embeddings ``(N >= 2, d)`` and ``(M >= 2, d)``.
+
+    ``|m - n|^2 + tr(A + B - 2 (A B)^(1/2))`` with means ``m, n`` and covariances ``A, B``; squared units of the
+    embeddings. With fewer embeddings than dimensions it is biased upwards: compare sets of one size.
+    """
+    a, b = _checked(found, 2), _checked(recorded, 2)
+    if a.shape[1] != b.shape[1]:
+        raise InvalidInputError(f"embeddings must have one width, not {a.shape[1]} and {b.shape[1]}")
+    apart = a.mean(axis=0) - b.mean(axis=0)
+    left, right = ((points - points.mean(axis=0)) / np.sqrt(len(points) - 1) for points in (a, b))
+    # the trace of (A B)^(1/2) is the sum of the singular values of left right^T, for A = left^T left, B = right^T right
+    shared = np.linalg.svd(left @ right.T, compute_uv=False).sum()
+    return float(apart @ apart + (left**2).sum() + (right**2).sum() - 2 * shared)
 
 
 def _distances(points: Floats, pairs: int, generator: np.random.Generator) -> Floats:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.linalg import sqrtm
 from scipy.stats import hypergeom
 
 from motionrt import metrics
@@ -80,3 +81,24 @@ def test_chance_ranks_one_in_thirty_two_first() -> None:
 def test_ranks_without_a_right_text_are_refused(similarity, right) -> None:
     with pytest.raises(InvalidInputError):
         metrics.matching_ranks(similarity, right)
+
+
+def test_the_frechet_distance_is_that_of_the_matrix_square_root() -> None:
+    random = np.random.default_rng(3)
+    a, b = random.normal(0, 1, (60, 5)) @ random.normal(0, 1, (5, 5)), random.normal(0.5, 2, (40, 5))
+    first, second = np.cov(a.T), np.cov(b.T)
+    apart = ((a.mean(axis=0) - b.mean(axis=0)) ** 2).sum()
+    expected = apart + np.trace(first + second - 2 * sqrtm(first @ second).real)
+    assert metrics.frechet_distance(a, b) == pytest.approx(expected, rel=1e-6)
+    assert metrics.frechet_distance(a, a) == pytest.approx(0, abs=1e-9)
+    assert metrics.frechet_distance(a + 2, a) == pytest.approx(4 * 5)
+    with pytest.raises(InvalidInputError, match="width"):
+        metrics.frechet_distance(a, b[:, :3])
+
+
+def test_the_energy_of_a_motion_is_the_speed_of_its_joints_about_the_root() -> None:
+    time = np.arange(31) / 30
+    root = np.stack([time, 0 * time, 0 * time], axis=1)
+    arm = root + np.stack([0 * time, 2 * time, 0 * time], axis=1)
+    joints = np.stack([root, *[arm] * 11, *[root] * 12], axis=1)
+    assert metrics.motion_energy(joints, 30) == pytest.approx(2 * 11 / 23)

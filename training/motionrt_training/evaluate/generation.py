@@ -36,7 +36,7 @@ from motionrt_training.corpora.actions import ActionClip, read_actions
 from motionrt_training.corpora.recordings import load_recordings
 from motionrt_training.evaluate import pair_tables, part_labels, prompts
 from motionrt_training.evaluate.latents import load_latents
-from motionrt_training.evaluate.simultaneous import LONGEST, WHILE, read_action_pairs
+from motionrt_training.evaluate.simultaneous import LONGEST, WHILE, clip_motion, read_action_pairs
 from motionrt_training.evaluate.ways import WAYS, Way, composed, diffused, first_pose
 
 Result = tuple[str, Mapping[str, object]]  # Markdown, and everything for JSON
@@ -60,18 +60,21 @@ def prompted(args: argparse.Namespace) -> Result:
     """The retrieval test of generated motion, through the public API."""
     runtime, asked = Runtime(args.models), prompts.read_prompts(args.prompts)
     texts = [prompt.text for prompt in asked]
+    train, test = _clips(args, "train"), _clips(args, "test")
+    known = runtime.embed_motion([clip_motion(clip) for clip in train])
     rows = {}
     for sampler in args.sampler:
         for lock in (True, False):
             motions = prompts.generated(runtime, asked, args.samples, sampler, foot_lock=lock)
-            rows[f"{sampler}, feet {'locked' if lock else 'free'}"] = prompts.judged(runtime, texts, motions)
+            row = prompts.judged(runtime, texts, motions, recordings=known)
+            rows[f"{sampler}, feet {'locked' if lock else 'free'}"] = row
     rows["chance"] = prompts.by_chance()
-    train, test = _clips(args, "train"), _clips(args, "test")
     for name, clips in (("training", train), ("test", test)):
         found = prompts.looked_up(asked, clips, runtime.model.sentences.embed)
-        rows[f"{name} clip of the nearest caption"] = prompts.judged(runtime, texts, found)
-    rows["recorded test clips, own captions"] = prompts.recorded(runtime, test)
-    rows["recorded test clips, feet locked"] = prompts.recorded(runtime, test, locked=True)
+        rows[f"{name} clip of the nearest caption"] = prompts.judged(runtime, texts, found, recordings=known)
+    rows["its first pose, held"] = prompts.judged(runtime, texts, prompts.frozen(found), recordings=known)
+    rows["recorded test clips, own captions"] = prompts.recorded(runtime, test, recordings=known)
+    rows["recorded test clips, feet locked"] = prompts.recorded(runtime, test, locked=True, recordings=known)
     return prompts.prompt_page(rows, asked, args.samples), prompts.as_json(rows, asked)
 
 

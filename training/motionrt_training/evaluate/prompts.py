@@ -9,7 +9,7 @@ is capable of).
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Protocol
 
@@ -61,7 +61,10 @@ class PromptRow:
         median_rank: MedR.
         skate_cm: foot skate, cm per frame at 30 fps.
         jerk: m/s^3.
+        energy: mean speed of joints seen from the pelvis, m/s.
+        contact_speed, contact_share: of feet at contact, m/s, and how often they are, 0 to 1.
         diversity, multimodality: distances of unit embeddings.
+        fid: Frechet distance from recordings, of unit embeddings.
         by_text: percent of rank 1 for every text.
     """
 
@@ -71,8 +74,12 @@ class PromptRow:
     median_rank: float
     skate_cm: float | None = None
     jerk: float | None = None
+    energy: float | None = None
+    contact_speed: float | None = None
+    contact_share: float | None = None
     diversity: float | None = None
     multimodality: float | None = None
+    fid: float | None = None
     by_text: tuple[float, ...] = ()
 
 
@@ -120,26 +127,34 @@ def looked_up(
 
 
 def judged(
-    maker: Maker, texts: Sequence[str], motions: Sequence[Sequence[Motion]], repeats: int = REPEATS
+    maker: Maker,
+    texts: Sequence[str],
+    motions: Sequence[Sequence[Motion]],
+    repeats: int = REPEATS,
+    recordings: FloatArray | None = None,
 ) -> PromptRow:
-    """Rank and measure motions ``motions[i]`` of text ``i``, as many for every text."""
+    """Rank and measure motions ``motions[i]`` of text ``i``, as many for every text.
+
+    `recordings` are embeddings ``(N, d)`` of recorded motions, which the Frechet distance is taken from.
+    """
     groups = np.stack([maker.embed_motion(list(group)) for group in motions])  # (texts, motions of each, d)
     flat = groups.reshape(-1, groups.shape[-1])
     right = np.repeat(np.arange(len(texts)), groups.shape[1])
     ranks = metrics.matching_ranks(flat @ maker.embed_text(list(texts)).T, right, repeats=repeats)
     found = metrics.scores(ranks.ravel())
     first = (ranks == 1).reshape(len(texts), -1).mean(axis=1)
-    skate, jerk = moved([motion for group in motions for motion in group])
     return PromptRow(
         len(flat),
         found.recall[1],
         found.recall[3],
         found.median_rank,
-        skate,
-        jerk,
-        metrics.diversity(flat) if len(flat) > 1 else None,
-        metrics.multimodality(groups) if groups.shape[1] > 1 else None,
-        tuple(float(100 * share) for share in first),
+        **moved([motion for group in motions for motion in group]),
+        diversity=metrics.diversity(flat) if len(flat) > 1 else None,
+        multimodality=metrics.multimodality(groups) if groups.shape[1] > 1 else None,
+        fid=metrics.frechet_distance(flat, recordings)
+        if recordings is not None and min(len(flat), len(recordings)) > 1
+        else None,
+        by_text=tuple(float(100 * share) for share in first),
     )
 
 
@@ -149,24 +164,53 @@ def by_chance() -> PromptRow:
     return PromptRow(0, found.recall[1], found.recall[3], found.median_rank)
 
 
-def recorded(maker: Maker, clips: Sequence[ActionClip], style: int = 1, *, locked: bool = False) -> PromptRow:
+def frozen(motions: Sequence[Sequence[Motion]]) -> list[list[Motion]]:
+    """The first pose of every motion, held."""
+    return [[held(motion) for motion in group] for group in motions]
+
+
+def held(motion: Motion) -> Motion:
+    """The first frame, as often as there are frames."""
+    first = np.zeros(motion.frames, int)
+    return replace(motion, rotations=motion.rotations[first], root=motion.root[first])
+
+
+def recorded(
+    maker: Maker,
+    clips: Sequence[ActionClip],
+    style: int = 1,
+    *,
+    locked: bool = False,
+    recordings: FloatArray | None = None,
+) -> PromptRow:
     """Clips among one caption of each."""
     motions = [clip_motion(clip).grounded() for clip in clips]
     texts = [clip.captions[style % len(clip.captions)] for clip in clips]
-    return judged(maker, texts, [[lock_feet(motion) if locked else motion] for motion in motions])
+    shown = [[lock_feet(motion) if locked else motion] for motion in motions]
+    return judged(maker, texts, shown, recordings=recordings)
 
 
-def moved(motions: Sequence[Motion]) -> tuple[float, float]:
-    """Mean foot skate (cm per frame) and jerk (m/s^3) of motions at 30 fps, each stood on its floor."""
-    joints = [motion.grounded().positions() for motion in motions]
-    skate = float(np.mean([metrics.foot_skate(positions) for positions in joints]))
-    fast = [metrics.jerk(p, m.fps) for p, m in zip(joints, motions, strict=True)]
-    return skate, float(np.mean(fast))
+def moved(motions: Sequence[Motion]) -> dict[str, float]:
+    """Means over motions at 30 fps, each stood on its floor: foot skate, jerk, energy, speed and share of contacts."""
+    rows = []
+    for motion in motions:
+        joints = motion.grounded().positions()
+        feet = metrics.footing(joints, motion.fps)
+        rows.append(
+            {
+                "skate_cm": feet.skate_cm,
+                "jerk": metrics.jerk(joints, motion.fps),
+                "energy": metrics.motion_energy(joints, motion.fps),
+                "contact_speed": feet.contact_speed,
+                "contact_share": feet.contact_share,
+            }
+        )
+    return {name: float(np.mean([row[name] for row in rows])) for name in rows[0]}
 
 
 def prompt_page(rows: Mapping[str, PromptRow], prompts: Sequence[Prompt], samples: int) -> str:
     """The table in Markdown, with what it shows."""
-    head = ["", "motions", "R@1", "R@3", "MedR", "foot skate", "jerk", "diversity", "multimodality"]
+    head = ["", "motions", "R@1", "R@3", "MedR", *(name for name, _, _ in _MOVEMENT)]
     body = [
         [
             name,
@@ -174,7 +218,7 @@ def prompt_page(rows: Mapping[str, PromptRow], prompts: Sequence[Prompt], sample
             f"{row.recall_1:.1f}",
             f"{row.recall_3:.1f}",
             f"{row.median_rank:.1f}",
-            *(_cell(value, digits) for value, digits in _movement(row)),
+            *(_cell(getattr(row, field), digits) for _, field, digits in _MOVEMENT),
         ]
         for name, row in rows.items()
     ]
@@ -186,15 +230,22 @@ def as_json(rows: Mapping[str, PromptRow], prompts: Sequence[Prompt]) -> dict[st
     return {"rows": {name: asdict(row) for name, row in rows.items()}, "prompts": [asdict(p) for p in prompts]}
 
 
-def _movement(row: PromptRow) -> list[tuple[float | None, int]]:
-    return [(row.skate_cm, 2), (row.jerk, 1), (row.diversity, 2), (row.multimodality, 2)]
-
-
 def _cell(value: float | None, digits: int) -> str:
     return "" if value is None else f"{value:.{digits}f}"
 
 
+_MOVEMENT = (
+    ("foot skate", "skate_cm", 2),
+    ("at contact", "contact_speed", 2),
+    ("contacts", "contact_share", 2),
+    ("jerk", "jerk", 1),
+    ("energy", "energy", 2),
+    ("diversity", "diversity", 2),
+    ("multimodality", "multimodality", 2),
+    ("FID", "fid", 2),
+)
 _INTRODUCTION = """{prompts} prompts, {samples} motions of each. Every motion ranks its own text among 32, the others
-drawn at random; recalls in percent. Foot skate in cm per frame at 30 fps, jerk in m/s^3; diversity, multimodality:
-distances between the unit embeddings of the retrieval model, which also does the ranking and was never trained on
-generated motion."""
+drawn at random; recalls in percent. Foot skate in cm per frame at 30 fps, speed of feet at contact in m/s and how often
+they are, jerk in m/s^3, energy: mean speed of joints seen from the pelvis, m/s. Diversity, multimodality and FID (from
+the recorded training clips): of the unit embeddings of the retrieval model, which also does the ranking and was never
+trained on generated motion."""
