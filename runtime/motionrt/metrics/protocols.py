@@ -25,7 +25,7 @@ from motionrt.metrics.ranking import (
 Choice = Callable[[npt.ArrayLike, int], npt.NDArray[np.int64]]
 """Similarity of texts and a number -> the indices, ascending, of so many texts."""
 
-_STARTS = 12  # sets that grow, each from a text of its own
+_STARTS = 12  # sets that grow, and as many that shrink
 
 
 def all_pairs(similarity: npt.ArrayLike) -> Retrieval:
@@ -98,26 +98,28 @@ def least_similar_sum(text_similarity: npt.ArrayLike, size: int = 100) -> npt.ND
 
     This is the quadratic knapsack problem of the paper with equal weights, solved approximately. From several sets the
     swap of a text inside with one outside that lowers the sum most is made until there is none; the best of the ends
-    is taken. One start is what is left after the text that is most like the others has left again and again; the
-    others grow from the texts that are least like all, each time by the text least like the set. Deterministic; ties
-    go to the lower index.
+    is taken. Some starts are what is left after the text that is most like the others has left again and again, one
+    each of the likest having left first; others grow from the texts that are least like all, each time by the text
+    least like the set. Deterministic; ties go to the lower index.
     """
     matrix = checked_similarity(text_similarity)
     if size < 1:
         raise InvalidInputError(f"size must be at least 1, not {size}")
     pairs = (matrix + matrix.T) / 2
     np.fill_diagonal(pairs, 0.0)
-    alone = np.argsort(pairs.sum(axis=1), kind="stable")[:_STARTS]
-    starts = [_shrunk(pairs, size), *(_grown(pairs, int(text), size) for text in alone)]
+    order = np.argsort(pairs.sum(axis=1), kind="stable").tolist()
+    starts = [_grown(pairs, text, size) for text in order[:_STARTS]]
+    starts += [_shrunk(pairs, text, size) for text in order[-_STARTS:]] if size < len(pairs) else []
     ends = [_swapped(pairs, inside) for inside in starts]
     best = min(ends, key=lambda inside: float(pairs[np.ix_(inside, inside)].sum()))
     return np.flatnonzero(best).astype(np.int64)
 
 
-def _shrunk(pairs: Floats, size: int) -> npt.NDArray[np.bool_]:
-    """Who is left when the text most like the others leaves until `size` are left."""
+def _shrunk(pairs: Floats, first: int, size: int) -> npt.NDArray[np.bool_]:
+    """Who is left when a text leaves, and then the one most like the others until `size` are left."""
     inside = np.ones(len(pairs), dtype=bool)
-    sums = pairs.sum(axis=1)
+    inside[first] = False
+    sums = pairs.sum(axis=1) - pairs[first]
     while inside.sum() > size:
         leaves = int(np.argmax(np.where(inside, sums, -np.inf)))
         inside[leaves] = False
