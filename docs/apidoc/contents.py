@@ -12,7 +12,9 @@ PAGES: dict[str, Page] = {
         "A motion is a value: 24 joints, metres, Y up. Files go in and out by their suffix.",
         (
             "motionrt:Motion", "motionrt:Skeleton", "motionrt:SMPL24", "motionrt:PARTS", "motionrt:load_motion",
-            "motionrt:load_rig", "motionrt:load_target", "motionrt:save_motion", "motionrt.rigs.clip:RigClip",
+            "motionrt:load_rig", "motionrt:load_target", "motionrt:load_character",
+            "motionrt.formats.character:Character", "motionrt.formats.character:Dressed", "motionrt.rigs.skin:Skin",
+            "motionrt:save_motion", "motionrt.rigs.clip:RigClip",
             "motionrt.formats:motion_file_info", "motionrt.formats:MotionFileInfo", "motionrt.formats:find_motions",
             "motionrt.formats:animations_of", "motionrt.rigs.certify:certify", "motionrt.rigs.certify:Certificate",
             "motionrt.rigs.certify:ProbeResult", "motionrt.rigs.mapping:draft_mapping",

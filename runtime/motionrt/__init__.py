@@ -12,7 +12,7 @@ from motionrt._lazy import lazily
 
 if TYPE_CHECKING:
     from motionrt.errors import MotionRTError
-    from motionrt.formats import load_motion, load_rig, load_target, save_motion
+    from motionrt.formats import load_character, load_motion, load_rig, load_target, save_motion
     from motionrt.locomotion import (
         Act,
         Do,
@@ -60,6 +60,7 @@ __all__ = [
     "WalkTo",
     "__version__",
     "errors",
+    "load_character",
     "load_motion",
     "load_rig",
     "load_target",
@@ -69,7 +70,7 @@ __all__ = [
 
 _HOMES = {
     "errors": ("MotionRTError",),
-    "formats": ("load_motion", "load_rig", "load_target", "save_motion"),
+    "formats": ("load_character", "load_motion", "load_rig", "load_target", "save_motion"),
     "locomotion": (
         "Act",
         "Do",

@@ -21,6 +21,7 @@ Needs: pip install "motionrt[render]"; for .mp4 the program ffmpeg, too.
 examples:
   motionrt render walk.bvh -o walk.png                       ten poses side by side
   motionrt render walk.bvh -o way.png --layout path          poses where they happen
+  motionrt render walk.bvh -o hero.gif --character hero.glb  on your own character
   motionrt render a.bvh b.bvh -o ab.gif --captions before after --camera side"""
 
 
@@ -29,6 +30,9 @@ def add(commands: Any) -> None:
     parser = command(commands, "render", run, HELP)
     parser.add_argument("inputs", nargs="+", metavar="IN", help="motion files, or scripts (.yaml) to perform")
     add_output(parser, "file to write (.png, .jpg, .webp, .gif, .mp4)")
+    parser.add_argument(
+        "--character", type=Path, metavar="FILE", help="who is drawn: your own character with its mesh (.glb, .vrm)"
+    )
     parser.add_argument("--captions", nargs="+", metavar="TEXT", help="a line for each (default: names of the files)")
     _add_camera(parser)
     _add_sheet(parser)
@@ -83,7 +87,7 @@ def run(arguments: argparse.Namespace) -> int:
     if names is None:
         names = [Path(name).stem for name in arguments.inputs] if len(given) > 1 else None
     with working("drawing"):
-        path = render_as(given, arguments.output, look, names)
+        path = render_as(given, arguments.output, look, names, arguments.character)
     size = path.stat().st_size
     if arguments.json:
         print_json({"path": str(path), "bytes": size})

@@ -9,6 +9,7 @@ from motionrt._lazy import lazily
 if TYPE_CHECKING:
     from motionrt.formats.acclaim import read_amc, read_asf
     from motionrt.formats.bvh import read_bvh, write_bvh
+    from motionrt.formats.character import Character, Dressed, load_character
     from motionrt.formats.fbx import read_fbx
     from motionrt.formats.folder import animations_of, find_motions
     from motionrt.formats.gltf import read_glb, write_glb
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
 _HOMES = {
     "acclaim": ("read_amc", "read_asf"),
     "bvh": ("read_bvh", "write_bvh"),
+    "character": ("Character", "Dressed", "load_character"),
     "fbx": ("read_fbx",),
     "folder": ("animations_of", "find_motions"),
     "gltf": ("read_glb", "write_glb"),
@@ -40,12 +42,15 @@ __all__ = [
     "MOTION_SUFFIXES",
     "RIG_SUFFIXES",
     "WRITABLE_SUFFIXES",
+    "Character",
+    "Dressed",
     "MotionFileInfo",
     "Rig",
     "RigMotion",
     "animations_of",
     "drop_leading_tpose",
     "find_motions",
+    "load_character",
     "load_motion",
     "load_rig",
     "load_target",

@@ -106,4 +106,5 @@ def joined(parts: Sequence[Solids]) -> Solids:
         np.concatenate([part.ends for part in parts]),
         np.concatenate([part.radii for part in parts]),
         np.concatenate([part.colours for part in parts]),
+        tuple(mesh for part in parts for mesh in part.meshes),
     )

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from motionrt.errors import InvalidInputError
+from motionrt.formats import Character
 from motionrt.rendering.files import FILMS, PICTURES, gif_rate, write_gif, write_mp4, write_picture
 from motionrt.rendering.film import film
 from motionrt.rendering.look import Layout, Look
@@ -38,6 +39,7 @@ def render(
     shadow: bool = True,
     times: bool = True,
     trails: bool = False,
+    character: Character | str | Path | None = None,
 ) -> Path:
     """Draw motions: a picture (.png, .jpg, .webp) or an animation (.gif, .mp4), as the suffix of the file says.
 
@@ -68,6 +70,8 @@ def render(
         shadow: draw shadows.
         times: write seconds.
         trails: draw the ways of wrists and ankles.
+        character: who is drawn instead of the figure: your own (``.glb``, ``.gltf``, ``.vrm``) with its mesh, in the
+            colours of its materials and textures, as tall as the figure.
 
     Returns:
         The path of the file, which is whole or not there.
@@ -80,11 +84,15 @@ def render(
     look = Look(
         camera, elevation, follow, layout, poses, size, columns, fps, theme, colours, grid, shadow, times, trails
     )  # fmt: skip
-    return render_as(given, out, look, captions)
+    return render_as(given, out, look, captions, character)
 
 
 def render_as(
-    given: TakeLike | Sequence[TakeLike], out: str | Path, look: Look, captions: str | Sequence[str] | None = None
+    given: TakeLike | Sequence[TakeLike],
+    out: str | Path,
+    look: Look,
+    captions: str | Sequence[str] | None = None,
+    character: Character | str | Path | None = None,
 ) -> Path:
     """As :func:`render`, with all that can be chosen in one value."""
     path = as_path(out)
@@ -92,21 +100,24 @@ def render_as(
     if suffix not in (*PICTURES, *FILMS):
         raise InvalidInputError(f"{path}: a file '{suffix}' cannot be drawn; can be: {', '.join((*PICTURES, *FILMS))}")
     if suffix in PICTURES:
-        return write_picture(picture(given, look, captions), path)
+        return write_picture(picture(given, look, captions, character), path)
     pillow("Image")
     if suffix == ".mp4":
         ffmpeg()
-    takes = takes_of(given, captions)
+    takes = takes_of(given, captions, character)
     rate = gif_rate(look.fps or GIF_FPS) if suffix == ".gif" else look.fps or VIDEO_FPS
     images = film(takes, look, rate)
     return write_gif(images, path, rate, look.palette) if suffix == ".gif" else write_mp4(images, path, rate)
 
 
 def picture(
-    given: TakeLike | Sequence[TakeLike], look: Look | None = None, captions: str | Sequence[str] | None = None
+    given: TakeLike | Sequence[TakeLike],
+    look: Look | None = None,
+    captions: str | Sequence[str] | None = None,
+    character: Character | str | Path | None = None,
 ) -> Any:
     """The picture that :func:`render` writes, as a ``PIL.Image``, for notebooks; errors as there."""
     pillow("Image")
     chosen = Look() if look is None else look
-    takes = takes_of(given, captions)
+    takes = takes_of(given, captions, character)
     return filmstrip(takes, chosen) if chosen.layout == "strip" else places(takes, chosen)

@@ -75,7 +75,7 @@ def cameras(take: Take, look: Look, box: Box, every: Sequence[int]) -> list[Came
     aims = targets(take, follow)
     joints = take.motion.positions()[:: max(1, take.motion.frames // 400)]
     seen = joints - aims[:: max(1, take.motion.frames // 400), None] if follow else joints
-    space = _padded(seen.reshape(-1, 3))
+    space = np.concatenate([_padded(seen.reshape(-1, 3)), _mesh(take, aims if follow else 0 * aims)])
     if not follow:
         space = np.concatenate([space, _belongings(take)])
     base = aims[0] * 0 if follow else aims[0]
@@ -88,6 +88,14 @@ def cameras(take: Take, look: Look, box: Box, every: Sequence[int]) -> list[Came
 def _padded(points: Floats) -> Floats:
     """Points with the flesh around them, and the head above them."""
     return np.concatenate([points - FLESH, points + np.array([FLESH, CROWN, FLESH], np.float32)])
+
+
+def _mesh(take: Take, aims: Floats) -> Floats:
+    """Points ``(N, 3)`` of a character in some frames, as seen from what the camera looks at ``(F, 3)``."""
+    if take.dressed is None:
+        return np.zeros((0, 3), np.float32)
+    some = range(0, take.motion.frames, max(1, take.motion.frames // 40))
+    return np.concatenate([take.outline(frame) - aims[frame] for frame in some])
 
 
 def _belongings(take: Take) -> Floats:

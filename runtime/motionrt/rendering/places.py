@@ -53,8 +53,11 @@ def _words(canvas: Canvas, camera: Camera, take: Take, poses: Poses, size: float
     """Words above the heads; of two that would touch only the later one."""
     taken: list[tuple[float, float, float]] = []
     for frame, words in zip(poses.frames[::-1], poses.words[::-1], strict=True):
-        joints = camera.project(take.motion.positions()[frame])[0]
-        x, y = float(joints[0, 0]), float(joints[:, 1].min()) - 0.24 * camera.scale
+        joints = camera.project(take.outline(frame))[0]
+        x, y = (
+            float(joints[0, 0]),
+            float(joints[:, 1].min()) - (0.24 if take.character is None else 0.08) * camera.scale,
+        )
         if camera.turn[2][1] > _FROM_ABOVE:
             x, y = float(joints[:, 0].max()) + 0.45 * camera.scale, float(joints[0, 1])
         half = 0.5 * (font(size).getlength(words) + size) * canvas.fine

@@ -62,8 +62,8 @@ def row_of(take: Take, look: Look) -> Row:
     """The row, with its poses as close to each other as they can stand."""
     poses = side_by_side(take, look)
     cameras = _cameras(take, look, poses)
-    joints = take.motion.positions()[poses.frames]
-    left, right, top, bottom = np.array([_reach(*pair) for pair in zip(cameras, joints, strict=True)]).T
+    outlines = [take.outline(frame) for frame in poses.frames.tolist()]
+    left, right, top, bottom = np.array([_reach(*pair) for pair in zip(cameras, outlines, strict=True)]).T
     wanted = float((right[:-1] - left[1:]).max(initial=0.0)) + _GAP
     floor = FLOOR_DEPTH * abs(float(cameras[0].turn[2][1])) + SOLE
     return Row(

@@ -26,7 +26,7 @@ def paint(canvas: Canvas, camera: Camera, take: Take, look: Look, frames: Sequen
         _floor(canvas, camera, take, floor)
     stage.ways(canvas, camera, [np.asarray(path) for path in take.paths], floor)
     for frame, fade in frames if look.shadow else ():
-        stage.shadow(canvas, camera, take.motion, frame, floor, 0.30 * (1 - 0.6 * fade))
+        stage.shadow(canvas, camera, take, frame, 0.30 * (1 - 0.6 * fade))
     if look.trails:
         trails(canvas, take, camera.project(take.motion.positions())[0][..., :2])
     canvas.solids(joined([*_belongings(camera, take, look, frames), *_figures(camera, take, look, frames)]))
@@ -44,7 +44,7 @@ def _floor(canvas: Canvas, camera: Camera, take: Take, floor: float) -> None:
 
 
 def _figures(camera: Camera, take: Take, look: Look, frames: Sequence[tuple[int, float]]) -> list[Solids]:
-    return [stage.body(camera, take.motion, frame, look.palette, fade) for frame, fade in frames]
+    return [stage.body(camera, take, frame, look.palette, fade) for frame, fade in frames]
 
 
 def _belongings(camera: Camera, take: Take, look: Look, frames: Sequence[tuple[int, float]]) -> list[Solids]:

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from motionrt.rendering.meshes import Mesh, fragments, gradients, slopes
+
 Floats = npt.NDArray[np.float32]
 Bytes = npt.NDArray[np.uint8]
 _LIGHT = (-0.420, -0.680, 0.601)  # unit vector from the upper left, before the picture; y points down
@@ -22,11 +24,13 @@ class Solids:
         ends: ``(N, 2, 3)`` centres of the two spheres.
         radii: ``(N, 2)``.
         colours: ``(N, 3)``, 0 to 1.
+        meshes: what is made of triangles.
     """
 
     ends: Floats
     radii: Floats
     colours: Floats
+    meshes: tuple[Mesh, ...] = ()
 
     def boxes(self, width: int, height: int) -> npt.NDArray[np.int64]:
         """``(N, 4)`` pixels left, top, right, bottom that each may touch, within the picture."""
@@ -58,13 +62,19 @@ def draw(solids: Solids, width: int, height: int) -> Sprite | None:
     """Solids as they are seen in a picture of that size, shaded; None where nothing is in the picture."""
     boxes = solids.boxes(width, height)
     inside = np.flatnonzero((boxes[:, 2] > boxes[:, 0]) & (boxes[:, 3] > boxes[:, 1]))
-    if not len(inside):
+    edges = np.array([mesh.box(width, height) for mesh in solids.meshes], np.int64).reshape(-1, 4)
+    around = np.concatenate([boxes[inside], edges[(edges[:, 2] > edges[:, 0]) & (edges[:, 3] > edges[:, 1])]])
+    if not len(around):
         return None
-    (left, top), (right, bottom) = boxes[inside, :2].min(axis=0), boxes[inside, 2:].max(axis=0)
+    (left, top), (right, bottom) = around[:, :2].min(axis=0), around[:, 2:].max(axis=0)
     buffer = _Buffer(int(left), int(top), int(right), int(bottom))
     for number in inside:
         buffer.add(solids.ends[number], solids.radii[number], boxes[number], int(number))
-    return buffer.sprite(solids.colours)
+    colours = [solids.colours]
+    for mesh in solids.meshes:
+        buffer.add_mesh(mesh, sum(map(len, colours)), width, height)
+        colours.append(mesh.colours)
+    return buffer.sprite(np.concatenate(colours))
 
 
 class _Buffer:
@@ -76,7 +86,7 @@ class _Buffer:
         self.depth = np.full(shape, -np.inf, np.float32)
         self.nx = np.empty(shape, np.float32)
         self.ny = np.empty(shape, np.float32)
-        self.owner = np.full(shape, _NOBODY, np.int16)
+        self.owner = np.full(shape, _NOBODY, np.int32)
 
     def add(self, ends: Floats, radii: Floats, box: npt.NDArray[np.int64], number: int) -> None:
         """Draw a solid where it is nearer than what is there."""
@@ -87,8 +97,19 @@ class _Buffer:
         z, nx, ny = surface(x, y, ends[1] - ends[0], *radii.tolist())
         z += ends[0, 2]
         nearer = z > self.depth[window]
-        for buffer, value in ((self.depth, z), (self.nx, nx), (self.ny, ny), (self.owner, np.int16(number))):
+        for buffer, value in ((self.depth, z), (self.nx, nx), (self.ny, ny), (self.owner, np.int32(number))):
             np.copyto(buffer[window], value, where=nearer)
+
+    def add_mesh(self, mesh: Mesh, first: int, width: int, height: int) -> None:
+        """Draw a mesh where it is nearer than what is there; its faces are numbered from ``first`` on."""
+        depth, owner = self.depth.ravel(), self.owner.ravel()
+        normals = gradients(mesh, mesh.normals[mesh.faces])
+        for x, y, z, face in fragments(mesh, width, height):
+            place = (y - self.top) * self.depth.shape[1] + x - self.left
+            np.maximum.at(depth, place, z)
+            won = np.flatnonzero(z >= depth[place])
+            owner[place[won]] = first + face[won]
+            self.nx.ravel()[place[won]], self.ny.ravel()[place[won]] = slopes(normals, face[won], x[won], y[won])
 
     def sprite(self, colours: Floats) -> Sprite:
         """What the buffer holds, shaded."""

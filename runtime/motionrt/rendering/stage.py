@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
-from motionrt.motion.motion import Motion
 from motionrt.rendering.body import SOLE, build_of, cone_ends
 from motionrt.rendering.camera import Camera
 from motionrt.rendering.canvas import Canvas
 from motionrt.rendering.colours import Colours
+from motionrt.rendering.meshes import seen
 from motionrt.rendering.solids import Floats, Solids
+from motionrt.rendering.takes import Take
 
 _CIRCLE = np.stack([np.cos(a := np.linspace(0, 2 * np.pi, 14, endpoint=False)), 0 * a, np.sin(a)], axis=-1)
 _ALONG = np.linspace(0, 1, 4)[:, None]
@@ -18,8 +21,13 @@ MARK_RADIUS, POINT_RADIUS = 0.045, 0.025  # metres
 _NEAR = 0.85  # nothing nearer to the eye than this part of the way is drawn on the floor
 
 
-def body(camera: Camera, motion: Motion, frame: int, colours: Colours, fade: float = 0.0) -> Solids:
-    """The figure in a frame."""
+def body(camera: Camera, take: Take, frame: int, colours: Colours, fade: float = 0.0) -> Solids:
+    """The figure in a frame, or the character that plays it."""
+    motion = take.motion
+    if take.dressed is not None:
+        skin, place = take.dressed.skin, take.vertices(frame)
+        mesh = seen(camera, place, skin.faces, skin.colours, colours, fade)
+        return replace(balls(camera, np.zeros((0, 3), np.float32), 1.0, "body", colours), meshes=(mesh,))
     build = build_of(motion.skeleton)
     ends, size = camera.project(cone_ends(motion, frame))
     return Solids(ends, build.radii * size, colours.tones(build.tones, fade))
@@ -33,18 +41,30 @@ def balls(camera: Camera, points: Floats, radius: float, tone: str, colours: Col
     return Solids(ends, radii.astype(np.float32), colours.tones((tone,) * len(ends)))
 
 
-def shadow(canvas: Canvas, camera: Camera, motion: Motion, frame: int, floor: float, strength: float = 0.30) -> None:
+def shadow(canvas: Canvas, camera: Camera, take: Take, frame: int, strength: float = 0.30) -> None:
     """The figure's shadow on the floor."""
+    if take.dressed is not None:
+        corners = take.vertices(frame)[take.dressed.skin.faces]
+        pixels, size = camera.project(_thrown(corners, camera, take.ground))
+        canvas.shade(pixels[..., :2], softness=0.022 * float(size.mean()), strength=strength)
+        return
+    motion, floor = take.motion, take.ground
     build = build_of(motion.skeleton)
     ends = cone_ends(motion, frame)
     centres = ends[:, None, 0] + _ALONG * (ends[:, None, 1] - ends[:, None, 0])
     radii = build.radii[:, None, 0] + _ALONG[:, 0] * (build.radii[:, None, 1] - build.radii[:, None, 0])
-    height = np.maximum(centres[..., 1:2] - floor, 0)
-    flat = centres + height * (_SHADOW_ASIDE * camera.aside + _SHADOW_AWAY * camera.away)
-    flat[..., 1] = floor - SOLE
+    flat = _thrown(centres, camera, floor)
     rings = flat[..., None, :] + radii[..., None, None] * _CIRCLE
     pixels, size = camera.project(rings.reshape(-1, len(_CIRCLE), 3).astype(np.float32))
     canvas.shade(pixels[..., :2], softness=0.022 * float(size.mean()), strength=strength)
+
+
+def _thrown(points: Floats, camera: Camera, floor: float) -> Floats:
+    """Points ``(..., 3)`` where their shadows lie."""
+    height = np.maximum(points[..., 1:2] - floor, 0)
+    flat = points + height * (_SHADOW_ASIDE * camera.aside + _SHADOW_AWAY * camera.away)
+    flat[..., 1] = floor - SOLE
+    return np.asarray(flat, np.float32)
 
 
 def on_floor(camera: Camera, xz: Floats, floor: float) -> Floats:

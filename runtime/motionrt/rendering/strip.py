@@ -74,16 +74,16 @@ def filmstrip(takes: list[Take], look: Look) -> Any:
 
 def _draw(canvas: Canvas, row: Row, look: Look, place: _Place) -> None:
     """One row: floor, shadows, trails, poses, words."""
-    motion, frames = row.take.motion, row.poses.frames
+    frames = row.poses.frames
     along = place.first + row.apart * place.scale * np.arange(len(frames))
     views = [replace(c, scale=place.scale, centre=(x, place.level)) for c, x in zip(row.cameras, along, strict=True)]
     if look.grid:
         _floor(canvas, row, place)
     for frame, view in zip(frames, views, strict=True) if look.shadow else ():
-        stage.shadow(canvas, view, motion, frame, row.take.ground)
+        stage.shadow(canvas, view, row.take, frame)
     if look.trails:
         trails(canvas, row.take, _ways(row, views[0], place))
-    canvas.solids(joined([stage.body(view, motion, f, look.palette) for f, view in zip(frames, views, strict=True)]))
+    canvas.solids(joined([stage.body(view, row.take, f, look.palette) for f, view in zip(frames, views, strict=True)]))
     _write(canvas, row, look, place, along)
 
 

@@ -4,17 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from pathlib import Path
 from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 
 from motionrt.errors import InvalidInputError
-from motionrt.formats import load_motion
+from motionrt.formats import Character, Dressed, load_character, load_motion
 from motionrt.motion.motion import Motion
 from motionrt.motion.skeleton import FloatArray
+from motionrt.rendering.body import SOLE
 from motionrt.untrusted.arguments import check_kind, listed
 
+_OUTLINE = 400  # vertices that stand for all of a mesh
 _LEAD_S = 2.0  # a keypoint is shown that long before it is met
 
 
@@ -45,6 +48,7 @@ class Take:
         things: points ``(N, 3)`` of furniture and the like.
         floor: height of the floor, metres; None is 0, or the lowest foot where that is far from 0.
         moments: seconds and words of the poses that a picture shows, instead of many with their times.
+        character: who is seen instead of the figure.
     """
 
     motion: Motion
@@ -55,6 +59,30 @@ class Take:
     things: FloatArray = field(default_factory=lambda: np.zeros((0, 3), np.float32))
     floor: float | None = None
     moments: Sequence[tuple[float, str]] = ()
+    character: Character | None = None
+
+    @cached_property
+    def dressed(self) -> Dressed | None:
+        """The character in the motion; RigError where it is no humanoid."""
+        return None if self.character is None else self.character.dressed(self.motion)
+
+    def vertices(self, frame: int) -> FloatArray:
+        """``(V, 3)`` metres of the character's mesh in a frame; it stands on the floor that is drawn.
+
+        Raises:
+            InvalidInputError: the take has no character.
+        """
+        if self.dressed is None:
+            raise InvalidInputError("the take has no character; give it one: Take(motion, character=...)")
+        return np.asarray(self.dressed.vertices(frame) - np.array([0, SOLE, 0], np.float32), np.float32)
+
+    def outline(self, frame: int) -> FloatArray:
+        """``(N, 3)`` points that are all in the picture in a frame, metres: joints, and some of the mesh."""
+        joints = np.asarray(self.motion.positions()[frame], np.float32)
+        if self.dressed is None:
+            return joints
+        mesh = self.vertices(frame)
+        return np.concatenate([joints, mesh[:: max(1, len(mesh) // _OUTLINE)]])
 
     @property
     def ground(self) -> float:
@@ -129,8 +157,12 @@ def _marks(segments: Sequence[Any], fps: float) -> list[Mark]:
     return found
 
 
-def takes_of(given: TakeLike | Sequence[TakeLike], captions: str | Sequence[str] | None) -> list[Take]:
-    """What to draw, side by side.
+def takes_of(
+    given: TakeLike | Sequence[TakeLike],
+    captions: str | Sequence[str] | None,
+    character: Character | str | Path | None = None,
+) -> list[Take]:
+    """What to draw, side by side, all of it on a character if one is given.
 
     Raises:
         InvalidInputError: nothing is given, or not one caption for each; otherwise as :func:`take_of`.
@@ -145,4 +177,11 @@ def takes_of(given: TakeLike | Sequence[TakeLike], captions: str | Sequence[str]
         raise InvalidInputError(
             f"give at least one motion, and one caption for each: {len(names or ())} for {len(many)}"
         )
-    return [take_of(one, None if names is None else names[i]) for i, one in enumerate(many)]
+    takes = [take_of(one, None if names is None else names[i]) for i, one in enumerate(many)]
+    if character is None:
+        return takes
+    somebody = character if isinstance(character, Character) else load_character(character)
+    dressed = [replace(take, character=somebody) for take in takes]
+    for take in dressed:
+        _ = take.dressed  # a rig that cannot be played is told before anything is drawn
+    return dressed

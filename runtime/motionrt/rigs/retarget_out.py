@@ -91,4 +91,4 @@ def to_rig(
         rig.clip, rotations=rotations, translations=translations, fps=motion.fps, rest=local, up=rig.clip.up
     )  # fmt: skip
     up = stance.to_world[1].astype(np.float32)
-    return RigMotion(clip, rig, build.units, up, build.units * build.sole)
+    return RigMotion(clip, rig, build.units, up, build.units * build.sole, stance.to_world.astype(np.float32))

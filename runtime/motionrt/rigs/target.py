@@ -48,6 +48,7 @@ class RigMotion:
         units_per_metre: the size of the rig: its units per metre of ``smpl24``, by the length of the legs.
         up: ``(3,)``, the vertical in the file's axes.
         sole: height of its toe joints above the floor while it stands on its soles, the rig's units.
+        to_world: ``(3, 3)``, from the file's axes to ours, Y up.
     """
 
     clip: RigClip
@@ -55,6 +56,7 @@ class RigMotion:
     units_per_metre: float
     up: FloatArray
     sole: float
+    to_world: FloatArray
 
     def __repr__(self) -> str:
         return f"RigMotion({self.frames} frames at {self.fps:g} fps, {len(self.clip.names)} joints)"

@@ -17,6 +17,7 @@ from motionrt.untrusted.files import read_bytes
 _TYPES = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 _COMPONENTS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 _LARGEST = {5120: 127.0, 5121: 255.0, 5122: 32767.0, 5123: 65535.0}
+_UNSIGNED = (5121, 5123, 5125)
 NUMBER_LIMIT = 100_000_000
 """Numbers that are read from one file at most."""
 
@@ -54,6 +55,37 @@ class GlbArrays:
         if values.ndim != 3:
             raise self._error(f"{what} is not made of matrices: the file is damaged")
         return values
+
+    def plain(self, accessor: int, what: str) -> npt.NDArray[np.float64]:
+        """Accessor as floats; integers come as they are unless the file says that they are fractions."""
+        entry = self._entry("accessors", accessor, what)
+        as_fractions = self.read(accessor, what)
+        most = _LARGEST.get(entry["componentType"], 1.0)
+        return as_fractions if entry.get("normalized") else as_fractions * most
+
+    def whole(self, accessor: int, what: str) -> npt.NDArray[np.int64]:
+        """Accessor of whole numbers that are not negative, as indices are.
+
+        Raises:
+            FormatError: of another kind, or as :meth:`read`.
+        """
+        entry = self._entry("accessors", accessor, what)
+        if entry.get("componentType") not in _UNSIGNED:
+            raise self._error(f"{what} has indices of an unknown kind: the file is damaged")
+        values = self.read(accessor, what) * _LARGEST.get(entry["componentType"], 1.0)
+        return np.rint(values).astype(np.int64)
+
+    def view(self, index: int, what: str) -> bytes:
+        """The bytes of a buffer view."""
+        view = self._entry("bufferViews", index, what)
+        content, first, length = (
+            self._buffer(view.get("buffer", 0), what),
+            view.get("byteOffset", 0),
+            view.get("byteLength", 0),
+        )
+        if not all(_whole(number) and number >= 0 for number in (first, length)) or first + length > len(content):
+            raise self._error(f"{what} lies outside of the file's binary data: the file is damaged")
+        return content[first : first + length]
 
     def count(self, accessor: int, what: str) -> int:
         """How many elements an accessor says it has."""

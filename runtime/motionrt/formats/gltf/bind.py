@@ -23,7 +23,7 @@ def bind_pose(
     transform for all joints: of those that are possible (none, that of a node above the joints) the one that leaves the
     joints nearest to where the nodes are.
     """
-    nodes = _global_nodes(tree, skeleton)
+    nodes = global_nodes(tree, skeleton)
     posed = {joint: np.linalg.inv(matrix) for joint, matrix in inverse_binds(document, arrays, skeleton).items()}
     if not posed or _same_up_to_one_transform(nodes, posed):
         return _local(nodes, skeleton.parents)
@@ -38,7 +38,7 @@ def bind_pose(
     return _local(bound, skeleton.parents)
 
 
-def _global_nodes(tree: NodeTree, skeleton: GlbSkeleton) -> Array:
+def global_nodes(tree: NodeTree, skeleton: GlbSkeleton) -> Array:
     """``(J, 4, 4)`` global transforms of the joints as the nodes have them, scales and all."""
     out = np.tile(np.eye(4), (len(skeleton.nodes), 1, 1))
     for joint, (node, parent) in enumerate(zip(skeleton.nodes, skeleton.parents, strict=True)):
