@@ -15,12 +15,14 @@ from motionrt.models.text import FloatArray
 from motionrt.motion.body_parts import PARTS
 from motionrt.motion.features import ego77
 from motionrt.synthesis.calming import calmed
-from motionrt.synthesis.canvas import Held, Piece
+from motionrt.synthesis.canvas import OWNERS, Held, Piece
 from motionrt.synthesis.footing import carried, share_of
-from motionrt.text import TextAttributes, heights_of_text, way_of_text
+from motionrt.synthesis.gesturing import gestured
+from motionrt.text import TextAttributes, ceiling_of_text, heights_of_text, way_of_text
 from motionrt.text.ways import Range, Way
 
 GLOBAL = PARTS.index("global")
+HEIGHT = 3  # column of the pelvis
 _TURNED, _GONE = np.radians(1.0), 0.02  # what is not worth a correction, radians and metres
 
 Array = npt.NDArray[np.float64]
@@ -39,16 +41,37 @@ def planned(pieces: Sequence[Piece], frames: int) -> Held:
 
 def steered(features: FloatArray, pieces: Sequence[Piece]) -> Held:
     """What must be otherwise about a motion ``(F, 77)`` so that it does what the texts of its pieces say."""
-    held = Held.nothing(len(features))
+    held = _gestures(features, pieces)
     for span, said in _spans(pieces):
-        rows, parts = calmed(features[span], said)
+        led = held.parts[span]
+        rows, parts = calmed(np.where(led[:, OWNERS], held.motion[span], features[span]), said)
+        parts |= led
         share = share_of(said) if len(rows) > 1 else 0.0
         if share:
             rows, parts[:, GLOBAL] = carried(rows, share), True
+        ceiling = ceiling_of_text(said)
+        if ceiling is not None and (rows[:, HEIGHT] > ceiling).any():
+            rows[:, HEIGHT], parts[:, GLOBAL] = np.minimum(rows[:, HEIGHT], ceiling), True
         found = brought(rows, way_of_text(said, len(rows) / ego77.FPS))
         if found is not None:
             rows, parts[:, GLOBAL] = found, True
         held.motion[span], held.parts[span] = rows, parts
+    return held
+
+
+def _gestures(features: FloatArray, pieces: Sequence[Piece]) -> Held:
+    """What limbs do of whose course their texts say it, each in the frames and parts that are its piece's."""
+    held = Held.nothing(len(features))
+    for piece in pieces:
+        owned = piece.weight > 0.5
+        own = np.flatnonzero(owned.any(axis=1))
+        if len(own):
+            first, last = int(own[0]), int(own[-1]) + 1
+            span = slice(piece.first + first, piece.first + last)
+            rows, parts = gestured(features[span], piece.words.said)
+            parts &= owned[first:last]
+            held.motion[span] = np.where(parts[:, OWNERS], rows, held.motion[span])
+            held.parts[span] |= parts
     return held
 
 

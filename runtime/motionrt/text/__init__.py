@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from motionrt.text.agreement import Agreement, agreement, agreements
+from motionrt.text.gestures import Gestures, gestures_of_text
 from motionrt.text.parsing import parse_query
 from motionrt.text.query import ACTIONS, TextAttributes
 from motionrt.text.slots import (
@@ -13,18 +14,21 @@ from motionrt.text.slots import (
     slots_of_text,
 )
 from motionrt.text.targets import TARGETS, attribute_targets, mirror_known, mirror_targets, targets_of_text
-from motionrt.text.ways import Way, heights_of_text, way_of_text
+from motionrt.text.ways import Way, ceiling_of_text, heights_of_text, way_of_text
 
 __all__ = [
     "ACTIONS",
     "SLOTS",
     "TARGETS",
     "Agreement",
+    "Gestures",
     "TextAttributes",
     "Way",
     "agreement",
     "agreements",
     "attribute_targets",
+    "ceiling_of_text",
+    "gestures_of_text",
     "heights_of_text",
     "mirror_known",
     "mirror_slots",

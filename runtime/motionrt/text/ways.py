@@ -27,7 +27,7 @@ _HEIGHTS = {  # of the pelvis of smpl24, metres; medians of recordings
     "standing": 0.94, "crouching": 0.58, "sitting": 0.5, "crawling": 0.45, "kneeling": 0.44, "lying": 0.09,
 }  # fmt: skip
 _FLOOR = re.compile(r"\b(?:floor|ground)\b")
-_LEAST_CHANGE = 0.2  # metres
+_LEAST_CHANGE, _OVER = 0.2, 0.1  # metres
 _FIRST, _LAST, _LATEST_S = 0.4, 0.7, 2.0  # when it changes: parts of the motion, seconds at most for the first
 _CHANGE_S = 0.2  # of the logistic curve of a change, which lasts about six times as long
 
@@ -97,6 +97,14 @@ def heights_of_text(said: TextAttributes, times: npt.ArrayLike) -> FloatArray | 
     if middle is not None:
         heights = heights + (end - middle) * _changed(at - _LAST * seconds)
     return np.asarray(heights, np.float32)
+
+
+def ceiling_of_text(said: TextAttributes) -> float | None:
+    """Metres below which the pelvis of ``smpl24`` stays in a text of one low posture; None elsewhere."""
+    low = said.posture_lowest
+    stays = low is not None and low == said.posture_start == said.posture_end and said.level in (None, "level")
+    height = _HEIGHTS.get(low or "", _HEIGHTS["standing"])
+    return height + _OVER if stays and height < _HEIGHTS["standing"] else None
 
 
 def _changed(times: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:

@@ -1,0 +1,175 @@
+"""Gestures whose course is plain from their word: where the hands go, how the trunk bows, which feet are lifted."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+Vector = tuple[float, float, float]
+_NOWHERE: Vector = (0.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True)
+class Gesture:
+    """What the hands do.
+
+    Attributes:
+        pattern: of the words that mean it, in lower-case text.
+        hands: ``"one"`` (the arm that the text names, the right one else), ``"both"``, ``"left"`` or ``"right"``.
+        places: where the wrist goes: (share of the gesture, out, up, ahead), metres from the shoulder, or from the
+            head; "out" is away from the middle of the body.
+        about: ``"shoulder"`` or ``"head"``.
+        swing, swirl: metres out, up, ahead that the wrist swings as a sine, and as a cosine, of `hz`.
+        hz: swings a second.
+        alternate: whether the hands swing against each other.
+        once_s: seconds that it lasts in the middle of the motion; 0 for what is kept up.
+    """
+
+    pattern: str
+    hands: str
+    places: tuple[tuple[float, float, float, float], ...]
+    about: str = "shoulder"
+    swing: Vector = _NOWHERE
+    swirl: Vector = _NOWHERE
+    hz: float = 0.0
+    alternate: bool = False
+    once_s: float = 0.0
+
+
+def _kept(out: float, up: float, ahead: float) -> tuple[tuple[float, float, float, float], ...]:
+    return ((0.0, out, up, ahead),)
+
+
+_THROWN = (
+    (0.0, 0.1, -0.1, 0.15),
+    (0.45, 0.25, 0.22, -0.22),
+    (0.62, 0.0, 0.22, 0.42),
+    (0.75, -0.2, -0.15, 0.4),
+    (1.0, -0.05, -0.35, 0.2),
+)
+
+GESTURES = (
+    Gesture(r"\bclap\w*|\bapplau\w*", "both", _kept(-0.05, -0.18, 0.33), swing=(0.09, 0.0, 0.0), hz=2.0),
+    Gesture(r"\bthrow\w*|\btoss\w*|\bpitch(?:es|ing)?\b|\bhurl\w*|\bfling\w*", "one", _THROWN, once_s=1.6),
+    Gesture(r"\bpoint(?:s|ing)?\b", "one", _kept(-0.04, 0.03, 0.5)),
+    Gesture(
+        r"shak\w+ (?:\w+ ){0,3}hands?\b|hand ?shak\w*", "one", _kept(-0.1, -0.28, 0.36), swing=(0, 0.05, 0), hz=1.8
+    ),
+    Gesture(
+        r"(?:wip|clean|polish|scrub|wash)\w* (?:\w+ ){0,3}(?:table|desk|counter|surface|floor board)s?\b",
+        "one",
+        _kept(-0.02, -0.3, 0.36),
+        swing=(0.14, 0, 0),
+        swirl=(0, 0, 0.08),
+        hz=0.9,
+    ),
+    Gesture(
+        r"(?:wip|clean|polish|scrub|wash)\w* (?:\w+ ){0,3}(?:window|wall|glass|mirror|board|door|car)s?\b",
+        "one",
+        _kept(-0.02, 0.05, 0.4),
+        swing=(0.14, 0, 0),
+        swirl=(0, 0.12, 0),
+        hz=0.9,
+    ),
+    Gesture(r"\bguitar\b|\bbanjo\b|\bukulele\b", "left", _kept(0.18, -0.14, 0.28), swing=(0.04, 0.02, 0), hz=0.4),
+    Gesture(r"\bguitar\b|\bbanjo\b|\bukulele\b", "right", _kept(-0.12, -0.34, 0.22), swing=(0, 0.06, 0), hz=2.2),
+    Gesture(r"\bviolin\b|\bfiddle\b", "left", _kept(0.08, 0.0, 0.36)),
+    Gesture(r"\bviolin\b|\bfiddle\b", "right", _kept(-0.08, -0.06, 0.32), swing=(0.13, -0.05, 0), hz=0.8),
+    Gesture(
+        r"\bpiano\b|\bkeyboard\b|\btyp(?:es|ing)\b",
+        "both",
+        _kept(0, -0.3, 0.36),
+        swing=(0.02, 0.025, 0),
+        hz=2.2,
+        alternate=True,
+    ),
+    Gesture(r"\bdrum(?:s|ming)?\b", "both", _kept(-0.02, -0.2, 0.36), swing=(0, 0.12, 0), hz=1.8, alternate=True),
+    Gesture(r"\bjuggl\w*", "both", _kept(0.0, -0.24, 0.32), swing=(0, 0.14, 0), hz=1.5, alternate=True),
+    Gesture(
+        r"\bsteer\w*|\bdriv(?:es|ing) (?:a |the |his |her )?(?:car|truck|bus)",
+        "both",
+        _kept(-0.02, -0.12, 0.4),
+        swing=(0, 0.1, 0),
+        hz=0.4,
+        alternate=True,
+    ),
+    Gesture(r"\bconduct\w*", "both", _kept(0.12, 0.02, 0.34), swing=(0.12, 0, 0), swirl=(0, 0.14, 0), hz=0.9),
+    Gesture(
+        r"\bdrink\w*|\bsips?\b|\bsipping\b",
+        "one",
+        (
+            (0, -0.02, -0.3, 0.3),
+            (0.35, -0.02, -0.3, 0.3),
+            (0.5, 0.05, -0.06, 0.15),
+            (0.8, 0.05, -0.04, 0.13),
+            (1, 0.0, -0.3, 0.3),
+        ),
+        "head",
+        once_s=3.0,
+    ),
+    Gesture(r"\beat(?:s|ing)?\b", "one", _kept(0.04, -0.16, 0.2), "head", swing=(0, 0.12, -0.06), hz=0.5),
+    Gesture(r"\bphone\b|\bcalls? (?:someone|somebody)", "one", _kept(0.12, -0.04, 0.03), "head"),
+    Gesture(r"\bsalut\w*", "one", _kept(0.13, 0.06, 0.1), "head"),
+    Gesture(
+        r"\bscratch\w* (?:\w+ ){0,2}(?:head|hair)",
+        "one",
+        _kept(0.09, 0.13, 0.02),
+        "head",
+        swing=(0.02, 0.02, 0.02),
+        hz=2.5,
+    ),
+    Gesture(
+        r"(?:\bscratch\w*|\brub\w*|\bwip\w*|\btouch\w*|\bstrok\w*) (?:\w+ ){0,2}"
+        r"(?:nose|chin|face|beard|mouth|eyes?|forehead|brow)\b",
+        "one",
+        _kept(0.05, -0.04, 0.13),
+        "head",
+        swing=(0.02, 0.01, 0),
+        hz=1.5,
+    ),
+    Gesture(
+        r"\bcover\w* (?:\w+ ){0,2}(?:ears|face|eyes)|\bhands? (?:on|to|over|behind) (?:\w+ )?(?:head|ears)",
+        "both",
+        _kept(0.12, 0.0, 0.02),
+        "head",
+    ),
+    Gesture(
+        r"\bcross\w* (?:\w+ ){0,2}arms|\barms (?:are )?(?:crossed|folded)|\bfold\w* (?:\w+ ){0,2}arms",
+        "both",
+        _kept(-0.25, -0.25, 0.2),
+    ),
+    Gesture(r"\bhands? on (?:\w+ )?(?:hips?|waist)|\bakimbo\b", "both", _kept(0.06, -0.42, 0.04)),
+    Gesture(r"\bpray(?:s|ing)?\b|palms together", "both", _kept(-0.14, -0.14, 0.26)),
+    Gesture(r"\bknock(?:s|ing)?\b", "one", _kept(-0.04, 0.0, 0.38), swing=(0, 0, 0.07), hz=2.8),
+    Gesture(r"\bhammer\w*|\bchop(?:s|ping)?\b", "one", _kept(-0.02, 0.0, 0.3), swing=(0, 0.25, -0.06), hz=1.1),
+    Gesture(r"\bsaw(?:s|ing)\b", "one", _kept(-0.02, -0.3, 0.28), swing=(0, -0.03, 0.13), hz=1.3),
+    Gesture(
+        r"\bstir(?:s|ring)?\b|\bmix(?:es|ing)\b",
+        "one",
+        _kept(-0.06, -0.3, 0.32),
+        swing=(0.09, 0, 0),
+        swirl=(0, 0, 0.08),
+        hz=1.0,
+    ),
+    Gesture(r"\bflap\w*|like a bird", "both", _kept(0.4, 0.05, 0.02), swing=(-0.03, 0.24, 0), hz=1.1),
+    Gesture(
+        r"\barms (?:out|outstretched|spread|wide)\b|\bspread\w* (?:\w+ ){0,2}arms|\bt ?pose\b|like an? (?:air)?plane",
+        "both",
+        _kept(0.49, 0.02, 0.02),
+    ),
+    Gesture(r"jumping ?jacks?|star ?jumps?", "both", _kept(0.28, 0.02, 0.02), swing=(0, 0.4, 0), hz=1.0),
+    Gesture(r"\blook\w* at (?:\w+ )?watch|\bcheck\w* (?:the time|(?:\w+ )?watch)", "left", _kept(-0.14, -0.12, 0.3)),
+)
+"""Hands of gestures, the first that matches first; what is not here is left to the network."""
+
+NOT_GESTURES = r"\bpoint(?:s|ed)? of\b|\bfloor|\bcartwheel|\bflip"
+"""Texts in which such words mean something else."""
+
+BOWS = r"(?<!draw )(?<!a )(?<!violin )\bbow(?:s|ing|ed)?\b(?! (?:and arrow|string|tie))|tak\w+ a bow|\bcurts\w*"
+"""The trunk goes down to the front and comes up again."""
+MARCHES = r"\bmarch\w*|high knees|\bstomp\w*|(?:walk\w*|step\w*) (?:on the spot|in place)"
+"""Knees come up in turn, on the spot or on the way."""
+BALANCES = r"(?:stand|balanc)\w* (?:\w+ ){0,3}on (?:one|his|her|the|a single) (?:left |right )?(?:foot|leg)|flamingo"
+"""One foot stays lifted."""
+
+ONE_KNEE = r"\bone knee\b|\bgenuflect\w*|\bpropos\w*|(?:left|right) knee\b"
+"""Whoever kneels does so on one knee."""
