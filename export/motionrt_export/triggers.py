@@ -13,7 +13,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from motionrt.text import lexicon
-from motionrt.text.lexicon.gestures import Gesture
+from motionrt.text.lexicon.gestures import Gesture, HeadGesture
 from motionrt.text.patterns import TRIGGERS_FILE, groups_of_words, key
 
 _NO_PATTERNS = frozenset({"GROUPS", "NUMBERS", "MOVES"})
@@ -52,7 +52,7 @@ def _texts(value: object) -> Iterator[str]:
         yield from (text for part in value.values() for text in _texts(part))
     elif isinstance(value, tuple | list):
         yield from (text for part in value for text in _texts(part))
-    elif isinstance(value, Gesture):
+    elif isinstance(value, Gesture | HeadGesture):
         yield value.pattern
 
 

@@ -20,7 +20,7 @@ from motionrt.motion.body_parts import PART_JOINTS, PARTS
 from motionrt.motion.features import ccf219
 from motionrt.synthesis.motion_diffusion import held_columns
 from motionrt.text import SLOTS, TARGETS, lexicon
-from motionrt.text.lexicon.gestures import Gesture
+from motionrt.text.lexicon.gestures import Gesture, HeadGesture
 from motionrt.text.patterns import compiled
 from motionrt.text.slots import CLASSES
 from motionrt.text.targets import _SCALED
@@ -86,7 +86,7 @@ def _filled(value: Any) -> Any:
     """Patterns with the words that ``{name}`` stands for; sets as sorted lists."""
     if isinstance(value, str):
         return compiled(value).pattern
-    if isinstance(value, Gesture):
+    if isinstance(value, Gesture | HeadGesture):
         return _filled(asdict(value))
     if isinstance(value, dict):
         return {key: _filled(each) for key, each in value.items()}

@@ -21,6 +21,7 @@ from motionrt.motion.transforms import moved, turned
 from motionrt.synthesis.canvas import Canvas, Held, Piece, Words, draw
 from motionrt.synthesis.constraints import Constraints
 from motionrt.synthesis.finishing import finished, locked
+from motionrt.synthesis.heads import with_heads
 from motionrt.synthesis.sampling import Sampling
 from motionrt.synthesis.steering import planned, steered
 from motionrt.synthesis.timeline import NETWORK, Line, pieces
@@ -135,7 +136,7 @@ class MotionGenerator:
         joints = ego77.decode(features)
         if as_many(len(joints)) < wanted.frames:  # the longest text: the last frame goes on as it went
             joints = np.concatenate([joints, 2 * joints[-1:] - joints[-2:-1]])
-        motion = as_motion(joints)[: wanted.frames]
+        motion = with_heads(as_motion(joints)[: wanted.frames], wanted.lines)
         if wanted.constraints.kept:
             return locked(_where(wanted.constraints.kept[0].motion, motion), sampling.foot_lock)
         if wanted.constraints.corrects:

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 
 from motionrt.text import lexicon as lex
-from motionrt.text.lexicon.gestures import Gesture
+from motionrt.text.lexicon.gestures import Gesture, HeadGesture
 from motionrt.text.patterns import has, plain, without
 from motionrt.text.query import TextAttributes
 
@@ -24,6 +24,7 @@ class Gestures:
         bows: whether the trunk goes down to the front and comes up again.
         marches: whether the knees come up in turn.
         lifted: the side of the foot that stays lifted, or None.
+        head: what the head does, or None.
         kneels: whose knees are on the floor: ``"left"``, ``"right"``, ``"both"`` or None.
     """
 
@@ -31,6 +32,7 @@ class Gestures:
     bows: bool = False
     marches: bool = False
     lifted: str | None = None
+    head: HeadGesture | None = None
     kneels: str | None = None
 
 
@@ -55,7 +57,8 @@ def _found(text: str, arm: str | None, leg: str | None, raised: str | None) -> G
     one = leg if leg in _SIDES else "right"
     kneels = one if has(words, lex.ONE_KNEE) else "both"
     lifted = (leg if leg in _SIDES else "left") if has(words, lex.BALANCES) else None
-    return Gestures(tuple(sorted(hands.items())), has(words, lex.BOWS), has(words, lex.MARCHES), lifted, kneels)
+    head = next((head for head in lex.HEADS if has(words, head.pattern)), None)
+    return Gestures(tuple(sorted(hands.items())), has(words, lex.BOWS), has(words, lex.MARCHES), lifted, head, kneels)
 
 
 def _hands(which: str, arm: str | None) -> tuple[str, ...]:

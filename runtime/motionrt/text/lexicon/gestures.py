@@ -173,3 +173,36 @@ BALANCES = r"(?:stand|balanc)\w* (?:\w+ ){0,3}on (?:one|his|her|the|a single) (?
 
 ONE_KNEE = r"\bone knee\b|\bgenuflect\w*|\bpropos\w*|(?:left|right) knee\b"
 """Whoever kneels does so on one knee."""
+
+
+@dataclass(frozen=True)
+class HeadGesture:
+    """What the head does, which positions of joints cannot say.
+
+    Attributes:
+        pattern: of the words that mean it, in lower-case text.
+        left, down: radians that it is turned and bent.
+        hz: how often a second it goes there and to the other side, or back; 0 for what is kept up.
+    """
+
+    pattern: str
+    left: float = 0.0
+    down: float = 0.0
+    hz: float = 0.0
+
+
+HEADS = (
+    HeadGesture(
+        r"\blook\w* (?:all )?(?:around|about)\b|\bsearch\w* around|\bscan\w* the"
+        r"|\blook\w* (?:to the )?(?:left and right|right and left|both ways)",
+        left=1.0,
+        hz=0.3,
+    ),
+    HeadGesture(r"\bshak\w+ (?:\w+ ){0,2}head\b|\bhead ?shak\w*", left=0.5, hz=1.2),
+    HeadGesture(r"\bnod(?:s|ding|ded)?\b", down=0.35, hz=1.2),
+    HeadGesture(r"\b(?:look|glanc|star)\w* (?:\w+ )?(?:up|upwards?|at the (?:sky|ceiling))\b", down=-0.5),
+    HeadGesture(r"\b(?:look|glanc|star)\w* (?:\w+ )?(?:down|downwards?|at the (?:floor|ground|feet))\b", down=0.5),
+    HeadGesture(r"\b(?:look|glanc)\w* (?:\w+ ){0,3}left\b", left=0.9),
+    HeadGesture(r"\b(?:look|glanc)\w* (?:\w+ ){0,3}right\b", left=-0.9),
+)
+"""Heads, the first that matches counts."""
