@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import tempfile
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 from engine_servers import STAMP, Server
@@ -11,12 +13,13 @@ from motionrt.engines import GalleryStore, open_store
 
 
 @pytest.fixture(scope="session")
-def postgres(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Server]:
+def postgres() -> Iterator[Server]:
     pytest.importorskip("pgserver", reason="pgserver is not installed")
     pytest.importorskip("psycopg", reason="the extra postgres is not installed")
-    server = Server(tmp_path_factory.mktemp("postgres"))
-    yield server
-    server.stop()
+    with tempfile.TemporaryDirectory(prefix="motionrt-postgres-", ignore_cleanup_errors=True) as folder:
+        server = Server(Path(folder))  # not in pytest's, which another pytest closes to the server's user
+        yield server
+        server.stop()
 
 
 @pytest.fixture(scope="session")

@@ -12,7 +12,8 @@ import numpy as np
 
 from motionrt.engines.conditions import Conditions
 from motionrt.engines.packages import package
-from motionrt.engines.rows import Row, rows_of
+from motionrt.engines.postgres_copy import COLUMNS, stream
+from motionrt.engines.rows import rows_of
 from motionrt.engines.store import KnownFile, Nearest
 from motionrt.errors import EngineError, GalleryNotFoundError, InvalidInputError
 from motionrt.motion.attributes import ATTRIBUTES
@@ -25,7 +26,6 @@ T = TypeVar("T")
 WIDTH = 256
 _PLACE = {name: number for number, name in enumerate(ATTRIBUTES, 1)}
 _CONDITIONS = Conditions(lambda name: f"attributes[{_PLACE[name]}]")
-_COLUMNS = "clip, part, start_s, end_s, duration_s, text, tags, embedding, attributes, file, size, mtime_ns"
 _MODELS = "create table if not exists motionrt_models (library text primary key, name text, fingerprint text)"
 _TABLE = (
     'clip text collate "C", part int, start_s double precision, end_s double precision, duration_s double precision, '
@@ -83,13 +83,13 @@ class PostgresStore:
 
         def put(cursor: Any) -> None:
             cursor.execute(f"create temp table fresh (like {self._table} including defaults) on commit drop")
-            with cursor.copy(f"copy fresh ({_COLUMNS}) from stdin") as copy:
-                for row in rows:
-                    copy.write_row(_values(row))
-            names = _COLUMNS.split(", ")
+            with cursor.copy(f"copy fresh ({COLUMNS}) from stdin (format binary)") as copy:
+                for piece in stream(rows):
+                    copy.write(piece)
+            names = COLUMNS.split(", ")
             changes = ", ".join(f"{name} = excluded.{name}" for name in names if name not in ("clip", "part"))
             cursor.execute(  # in one order, so that two clients never wait for each other
-                f"insert into {self._table} ({_COLUMNS}) select {_COLUMNS} from fresh order by clip, part "
+                f"insert into {self._table} ({COLUMNS}) select {COLUMNS} from fresh order by clip, part "
                 f"on conflict (clip, part) do update set {changes}"
             )
             cursor.execute(
@@ -216,14 +216,6 @@ def _where(filters: Filter) -> tuple[str, tuple[Any, ...]]:
     if filters.where is not None:
         words.append(_CONDITIONS.written(filters.where))
     return " and ".join(words) or "true", tuple(value for _, value in parts)
-
-
-def _values(row: Row) -> tuple[Any, ...]:
-    clip, attributes = row.clip, None if row.attributes is None else row.attributes.tolist()
-    return (
-        clip.id, row.part, row.start_s, row.end_s, clip.duration_s, clip.text, list(row.tags), _text(row.embedding),
-        attributes, clip.file, clip.size, clip.mtime_ns,
-    )  # fmt: skip
 
 
 def _text(vector: FloatArray) -> str:
