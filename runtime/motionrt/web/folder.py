@@ -13,9 +13,11 @@ import numpy as np
 
 from motionrt.errors import InvalidInputError
 from motionrt.models import Manifest, find_manifest, load_manifest
+from motionrt.models.checks import verified
 from motionrt.motion import Motion
 from motionrt.motion.rotations import matrix_to_quaternion
 from motionrt.retrieval import Gallery
+from motionrt.web.blocks import unfolded
 
 MODELS = ("walknet", "tmr_text", "motion_denoiser", "tmr_student")
 """The models that a page may load; each is loaded when it is first needed."""
@@ -44,7 +46,7 @@ def write_folder(
 
     Raises:
         InvalidInputError: an unknown model, pages that are not there, or a folder that cannot be written.
-        ModelFileError: a model's file is missing.
+        ModelFileError, ChecksumError: a model's file is missing, or not the one that the manifest means.
     """
     manifest, folder = load_manifest(find_manifest(models)), Path(out)
     if unknown := sorted(set(only) - set(manifest.models)):
@@ -67,10 +69,10 @@ def write_folder(
 
 def _model(manifest: Manifest, name: str, folder: Path) -> dict[str, Any]:
     variant = manifest.variant(name)
-    path = manifest.locate(variant.file)
-    target = folder / "models" / path.name
-    shutil.copyfile(path, target)
-    return {"file": f"models/{path.name}", "bytes": target.stat().st_size, "sha256": variant.sha256}
+    content = unfolded(verified(manifest, variant))
+    file = f"models/{Path(variant.file).name}"
+    (folder / file).write_bytes(content)
+    return {"file": file, "bytes": len(content), "sha256": hashlib.sha256(content).hexdigest()}
 
 
 def _tokenizer(manifest: Manifest, folder: Path) -> None:

@@ -1,0 +1,113 @@
+"""Models for WebAssembly: weights in 8-bit blocks are decoded once, when a model is opened, not in every run.
+
+onnxruntime multiplies by blocks (``MatMulNBits``) as they are only on processors that it has kernels for; in
+WebAssembly it decodes them each time, which takes half of a text's milliseconds. Written out as operators on constants,
+the decoding is done by onnxruntime's own folding at the start. The file keeps its size, and the numbers are the same.
+"""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Iterator
+
+from motionrt.models.protobuf import message, number, text
+
+Field = tuple[int, bytes, bytes]
+"""A field's number, its content, and all its bytes; a whole number's content is itself in eight bytes."""
+
+_GRAPH, _NODE, _INITIALIZER = 7, 1, 5  # of ModelProto and GraphProto in onnx.proto3
+_FLOAT, _INT64 = 1, 7
+_ZERO = "blocks/zero"
+
+
+def unfolded(model: bytes) -> bytes:
+    """An ONNX model without ``MatMulNBits`` of 8 bits; others, and all else, stay byte by byte."""
+    return b"".join(
+        message(_GRAPH, _graph(content)) if field == _GRAPH else raw for field, content, raw in _fields(model)
+    )
+
+
+def _graph(graph: bytes) -> list[bytes]:
+    parts, constants = [], [_tensor(_ZERO, _FLOAT, (), struct.pack("<f", 128))]
+    for field, content, raw in _fields(graph):
+        nodes = _node(content, constants) if field == _NODE else None
+        parts += [raw] if nodes is None else [message(_NODE, node) for node in nodes]
+    return [*parts, *(message(_INITIALIZER, constant) for constant in constants)] if len(constants) > 1 else parts
+
+
+def _node(node: bytes, constants: list[list[bytes]]) -> list[list[bytes]] | None:
+    """The operators in place of a node, and what they need among ``constants``; None where it stays."""
+    told: dict[int, list[bytes]] = {}
+    for field, content, _ in _fields(node):
+        told.setdefault(field, []).append(content)
+    if told[4] != [b"MatMulNBits"]:
+        return None
+    values = dict(map(_attribute, told[5]))
+    width, count, size = (values[key] for key in ("K", "N", "block_size"))
+    given = [name.decode() for name in told[1]] + [""] * 6
+    activations, codes, scales, zeros, order, bias = given[:6]
+    if values["bits"] != 8 or width % size or zeros or order:
+        return None
+    name, out = told[3][0].decode() + "/", told[2][0].decode()
+    blocks = width // size
+    constants += [_shape(f"{name}blocks", count, blocks, 1), _shape(f"{name}whole", count, width)]
+    return [
+        _operator("Cast", [codes], f"{name}codes", _whole("to", _FLOAT)),
+        _operator("Sub", [f"{name}codes", _ZERO], f"{name}numbers"),
+        _operator("Reshape", [scales, f"{name}blocks"], f"{name}scales"),
+        _operator("Mul", [f"{name}numbers", f"{name}scales"], f"{name}decoded"),
+        _operator("Reshape", [f"{name}decoded", f"{name}whole"], f"{name}rows"),
+        _operator("Transpose", [f"{name}rows"], f"{name}weights"),
+        _operator("MatMul", [activations, f"{name}weights"], f"{name}product" if bias else out),
+        *([_operator("Add", [f"{name}product", bias], out)] if bias else []),
+    ]
+
+
+def _operator(kind: str, inputs: list[str], output: str, *attributes: bytes) -> list[bytes]:
+    return [*(text(1, name) for name in inputs), text(2, output), text(3, output), text(4, kind), *attributes]
+
+
+def _whole(name: str, value: int) -> bytes:
+    """An attribute that is a whole number."""
+    return message(5, [text(1, name), number(3, value), number(20, 2)])
+
+
+def _shape(name: str, *sizes: int) -> list[bytes]:
+    return _tensor(name, _INT64, (len(sizes),), struct.pack(f"<{len(sizes)}q", *sizes))
+
+
+def _tensor(name: str, kind: int, sizes: tuple[int, ...], content: bytes) -> list[bytes]:
+    return [*(number(1, size) for size in sizes), number(2, kind), text(8, name), message(9, [content])]
+
+
+def _attribute(attribute: bytes) -> tuple[str, int]:
+    """Name and whole number of an attribute."""
+    told = {field: content for field, content, _ in _fields(attribute)}
+    return told[1].decode(), int.from_bytes(told.get(3, b""), "little")
+
+
+def _fields(content: bytes) -> Iterator[Field]:
+    """The fields of a message, one after the other."""
+    at = 0
+    while at < len(content):
+        start = at
+        key, at = _varint(content, at)
+        kind = key & 7
+        if kind == 0:
+            value, at = _varint(content, at)
+            yield key >> 3, value.to_bytes(8, "little"), content[start:at]
+            continue
+        size, at = _varint(content, at) if kind == 2 else ({1: 8, 5: 4}[kind], at)
+        yield key >> 3, content[at : at + size], content[start : at + size]
+        at += size
+
+
+def _varint(content: bytes, at: int) -> tuple[int, int]:
+    """A number of seven bits a byte, and where it ends."""
+    value = shift = 0
+    while True:
+        byte = content[at]
+        value |= (byte & 127) << shift
+        shift, at = shift + 7, at + 1
+        if byte < 128:
+            return value, at
