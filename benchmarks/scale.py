@@ -20,7 +20,6 @@ import os
 import random
 import resource
 import shutil
-import signal
 import subprocess
 import sys
 import tempfile
@@ -354,30 +353,36 @@ sys.path[:0] = [{here!r}, *{paths!r}]
 from scale import open_instant
 from motionrt.retrieval import build_gallery, journal
 journal.EVERY_S = 1.0
-build_gallery({folder!r}, open_instant, out={out!r})
+build_gallery({folder!r}, open_instant, out={out!r}, progress=lambda *_: print(flush=True))
 """
 
 
-def killed(count: int, kills: int, between: Sequence[float]) -> dict[str, Any]:
-    """A build in a process that is killed again and again: how much is read in all, and whether anything is lost."""
+def killed(count: int, kills: int) -> dict[str, Any]:
+    """A build in a process that is killed again and again: how much is read in all, and whether anything is lost.
+
+    Each time it dies after a random number of files, so that the deaths lie all over the library, and within a random
+    fiftieth of a second, which is anywhere in the work on a file or in what is kept of it.
+    """
     with tempfile.TemporaryDirectory(dir=os.environ.get("MOTIONRT_SCRATCH")) as place:
         folder, out = Path(place) / "library", Path(place) / "killed"
         write_library(folder, count)
         code = KILLED.format(here=str(Path(__file__).parent), paths=sys.path, folder=str(folder), out=str(out))
-        draw, died = random.Random(1), 0
+        draw, died, read = random.Random(1), 0, 0
         for _ in range(kills):
-            child = subprocess.Popen([sys.executable, "-c", code])
-            try:
-                child.wait(draw.uniform(*between))
-            except subprocess.TimeoutExpired:
-                child.send_signal(signal.SIGKILL)
-                child.wait()
-                died += 1
+            child = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE)
+            assert child.stdout is not None
+            for _ in range(draw.randrange(1, 2 * count // (kills + 1))):
+                read += len(child.stdout.readline())
+            time.sleep(draw.uniform(0, 0.02))
+            died += child.poll() is None
+            child.kill()
+            child.communicate()
         report = build_gallery(folder, open_instant, out=out)
         report.gallery.verify()
         files = sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*.npz"))
         lost = [clip.id for clip in report.gallery.clips] != files
-    return {"files": count, "kills": died, "left_to_index": report.indexed, "lost": lost}
+    left = report.indexed
+    return {"files": count, "kills": died, "read_until_the_last": read, "left_to_index": left, "lost": lost}
 
 
 @contextmanager
@@ -400,9 +405,6 @@ def main() -> None:
     parser.add_argument("--precision", nargs="*", default=["float16", "int8"])
     parser.add_argument("--keep", type=Path, help="a folder for galleries and graphs that are used again")
     parser.add_argument("--kills", type=int, default=20)
-    parser.add_argument(
-        "--between", type=float, nargs=2, default=(2, 8), help="seconds until a kill, at least and most"
-    )
     parser.add_argument("--jobs", type=int, default=1, help="processes of the library's build")
     parser.add_argument("-o", "--out", type=Path)
     arguments = parser.parse_args()
@@ -411,7 +413,7 @@ def main() -> None:
         if arguments.what == "library":
             told.append(library(size, arguments.jobs))
         elif arguments.what == "kills":
-            told.append(killed(size, arguments.kills, arguments.between))
+            told.append(killed(size, arguments.kills))
         else:
             with scratch(arguments.keep, f"{size}{'-noise' if arguments.noise else ''}") as place:
                 told.append(
