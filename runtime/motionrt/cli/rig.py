@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import json
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -15,7 +16,8 @@ if TYPE_CHECKING:
 
 FAILED = 1
 MAP = """write a draft of the mapping of a rig (YAML), to be corrected, kept and shared
-Give it back with --mapping (motions) or --rig-mapping (characters)."""
+Give it back with --mapping (motions) or --rig-mapping (characters). With --json it also says how the joints
+are turned against ours, and how well the rig is certified: what a page needs to put motions on it itself."""
 CERTIFY = """put probe motions on a character and measure what arrives
 Hands, feet and limbs, twist, flips, ground contact, hip height, sides; which joints are driven and which
 stay. Gates: 95th percentiles within 2 cm (at human size) and 5 degrees, no flip; exit code 1 if one fails."""
@@ -33,15 +35,27 @@ def add(commands: Any) -> None:
         parser.add_argument("--skin", metavar="NAME", help="of a .glb that holds several figures")
         add_mapping(parser)
     add_json(certifier)
+    mapper.add_argument("--json", action="store_true", help="for programs, with alignments and what certify says")
 
 
 def run_map(arguments: argparse.Namespace) -> int:
     """Draft the mapping."""
     from motionrt.formats import load_target
+    from motionrt.formats.atomic import write_bytes
+    from motionrt.rigs.certified import certified_mapping
     from motionrt.rigs.mapping import draft_mapping, mapping_text, save_mapping
 
-    rig = load_target(arguments.rig, skin=arguments.skin)
-    mapping = draft_mapping(rig.clip, read_mapping(arguments.mapping))
+    rig, given = load_target(arguments.rig, skin=arguments.skin), read_mapping(arguments.mapping)
+    if arguments.json:
+        with working("certifying"):
+            found = certified_mapping(rig, mapping=given)
+        if arguments.output is None:
+            print_json(found)
+        else:
+            content = json.dumps(found, indent=2, ensure_ascii=False).encode()
+            print(f"{write_bytes(arguments.output, content)}: {len(found['mapping'])} joints")
+        return 0
+    mapping = draft_mapping(rig.clip, given)
     if arguments.output is None:
         print(mapping_text(mapping), end="")
     else:

@@ -16,7 +16,7 @@ _LARGEST = 2**20
 
 
 def load_mapping(path: str | Path) -> dict[str, str]:
-    """The mapping in a YAML or JSON file: ``smpl24`` joint name -> joint name of the rig.
+    """The mapping in a YAML or JSON file: ``smpl24`` joint name -> joint name of the rig; of ``rig map``, too.
 
     Raises:
         InvalidInputError: the file cannot be read, or does not map names to names.
@@ -26,6 +26,8 @@ def load_mapping(path: str | Path) -> dict[str, str]:
         if path.stat().st_size > _LARGEST:
             raise InvalidInputError(f"{path} is too large for a mapping ({path.stat().st_size} bytes)")
         mapping = yaml.safe_load(path.read_text(encoding="utf-8-sig"))
+        if isinstance(mapping, dict) and isinstance(mapping.get("mapping"), dict):  # of `motionrt rig map --json`
+            mapping = mapping["mapping"]
     except (OSError, ValueError, yaml.YAMLError, RecursionError) as error:
         if isinstance(error, InvalidInputError):
             raise

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from dataclasses import replace
 from pathlib import Path
@@ -13,10 +14,12 @@ from glb_files import glb
 from retarget_rigs import SIDED, person, rig
 from scipy.spatial.transform import Rotation
 
+from motionrt.cli import main
 from motionrt.errors import InvalidInputError, RigError
 from motionrt.formats import load_target
 from motionrt.motion import SMPL24, Motion
 from motionrt.rigs import RigMotion, played, to_rig, to_smpl24
+from motionrt.rigs.certified import certified_mapping
 from motionrt.rigs.certify import certify
 from motionrt.rigs.mapping import draft_mapping, load_mapping, mapping_text, save_mapping
 from motionrt.rigs.plain_kinematics import joint_transforms
@@ -198,3 +201,35 @@ def worst(one: Motion, two: Motion) -> float:
 def test_the_text_of_a_mapping_lists_joints_from_the_pelvis_outwards() -> None:
     text = mapping_text({"left_knee": "b", "pelvis": "a"})
     assert text.splitlines() == ["# smpl24 joint: joint of the rig", 'pelvis: "a"', 'left_knee: "b"']
+
+
+@pytest.mark.parametrize("product", ["mixamo", "unreal"])
+def test_a_program_that_reads_the_certified_mapping_turns_the_limbs_as_the_probe(tmp_path: Path, product: str) -> None:
+    file = glb(character(product)).save(tmp_path / "rig.glb")
+    rig_json = tmp_path / "rig.json"
+    assert main(["rig", "map", str(file), "--json", "-o", str(rig_json)]) == 0
+    known = json.loads(rig_json.read_text(encoding="utf-8"))
+    assert known["certified"]
+    assert known["worst"]["hands_cm"] <= 2
+    target, motion = load_target(file), probe_motions()["walk on the spot"]
+    turns, clip = motion.global_rotations().astype(float), target.clip
+    world = Rotation.from_quat(known["to_world"]).as_matrix()
+    rest, rest_turns = clip.rest_positions().astype(float), clip.rest_pose()[1].astype(float)
+    for side in ("left", "right"):
+        for upper, lower in (("shoulder", "elbow"), ("elbow", "wrist"), ("hip", "knee"), ("knee", "ankle")):
+            top, end = (f"{side}_{part}" for part in (upper, lower))
+            joint, below = (clip.names.index(known["mapping"][role]) for role in (top, end))
+            bone = rest_turns[joint].T @ (rest[below] - rest[joint])
+            alignment = Rotation.from_quat(known["alignments"][clip.names[joint]]).as_matrix()
+            ours = world.T @ turns[:, SMPL24.index(top)] @ alignment.T @ bone
+            points = motion.positions().astype(float)
+            theirs = (points[:, SMPL24.index(end)] - points[:, SMPL24.index(top)]) @ world
+            cosine = (ours * theirs).sum(-1) / np.linalg.norm(ours, axis=-1) / np.linalg.norm(theirs, axis=-1)
+            assert np.degrees(np.arccos(np.clip(cosine, -1, 1))).max() < 3, (top, end)
+
+
+def test_a_certified_mapping_can_be_given_back_as_a_mapping(tmp_path: Path) -> None:
+    file = glb(character("unity")).save(tmp_path / "rig.glb")
+    saved = tmp_path / "rig.json"
+    saved.write_text(json.dumps(certified_mapping(load_target(file))), encoding="utf-8")
+    assert load_mapping(saved) == draft_mapping(load_target(file).clip)
