@@ -38,6 +38,8 @@ class Limits:
         joints: joints of a skeleton.
         frames: frames of a motion.
         stretched_frames: frames between the keys of an animation, or fifty times as many as it has keys.
+        values: frames times joints of an animation, in a file or on a rig.
+        stretched_values: the same of an animation that has fewer keys than half of its frames.
         fps: frames per second of a motion; the least rate is :data:`SLOWEST_FPS`.
         text_chars: characters of a text that is searched for, generated or understood.
         motions: motions that one call generates of a text, or results that it gives.
@@ -65,6 +67,8 @@ class Limits:
     joints: int = 2048
     frames: int = 2_000_000
     stretched_frames: int = 100_000
+    values: int = 30_000_000
+    stretched_values: int = 8_000_000
     fps: float = 10_000.0
     text_chars: int = 10_000
     motions: int = 1000

@@ -73,7 +73,7 @@ def load_rig(
         ".bvh": lambda: read_bvh(path, fps=fps),
         ".amc": lambda: read_amc(path, asf, fps=fps),
         ".npz": lambda: read_npz(path, fps=fps, up=up),
-        ".npy": lambda: read_npy(path, fps=fps),
+        ".npy": lambda: read_npy(path, fps=fps, up=up),
         ".fbx": lambda: read_fbx(path, fps=fps, animation=animation),
     }
     clip = readers.get(suffix, lambda: read_glb(path, fps=fps, animation=animation, skin=skin))()

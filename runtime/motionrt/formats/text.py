@@ -22,6 +22,7 @@ LARGEST_VALUE = 1e7
 
 _PLAIN = "0123456789+-.eE \t\n"
 _BLOCK = 1 << 19  # characters
+_START = 256  # bytes by which UTF-16 is known
 
 
 def require_file(path: Path) -> None:
@@ -41,13 +42,15 @@ def read_bytes(path: Path) -> bytes:
 
 
 def read_text(path: Path) -> str:
-    """The text of a file with Unix line ends: UTF-8 or UTF-16 by their marks, UTF-8, else Latin-1; no binary files."""
+    """The text of a file with Unix line ends: UTF-8 or UTF-16, with marks or without, else Latin-1; no binary files."""
     raw = read_bytes(path)
     if raw.startswith(_LFS_POINTER):
         raise FormatError(path, "is a pointer of git LFS, not the file itself: fetch it with 'git lfs pull'")
     if raw.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
         return _unix_lines(raw.decode("utf-16", errors="replace"))
-    raw = raw.rstrip(b"\0 \t\r\n")
+    if wide := _wide(raw):
+        return _unix_lines(raw.decode(wide, errors="replace"))
+    raw = raw.rstrip(b"\0\x1a \t\r\n")  # padding, and the end of a text in old systems
     if not raw:
         raise FormatError(path, "the file is empty")
     if b"\0" in raw:
@@ -56,6 +59,16 @@ def read_text(path: Path) -> str:
         return _unix_lines(raw.decode("utf-8-sig"))
     except UnicodeDecodeError:
         return _unix_lines(raw.decode("latin-1"))
+
+
+def _wide(raw: bytes) -> str | None:
+    """The UTF-16 of a text without a mark: plain letters with a zero byte before or after each of them."""
+    start = raw[:_START]
+    zeros, letters = start[1::2], start[0::2]
+    for even, odd, name in ((letters, zeros, "utf-16-le"), (zeros, letters, "utf-16-be")):
+        if len(start) >= 8 and not any(odd) and even.isascii() and b"\0" not in even:
+            return name
+    return None
 
 
 def _unix_lines(text: str) -> str:
@@ -87,20 +100,26 @@ def numbers_in(text: str, count: int) -> npt.NDArray[np.float64] | None:
     """
     values = _at_once(text)
     if values is not None and values.size == count:
-        return values if bool((np.abs(values) <= LARGEST_VALUE).all()) else None
+        return values
     return _by_words(text)
 
 
 def _at_once(text: str) -> npt.NDArray[np.float64] | None:
-    """The numbers that NumPy reads in a text of plain numbers, which may end early; ``None`` for any other text."""
+    """The numbers that NumPy reads in a text of plain numbers, which may end early; ``None`` for any other text.
+
+    They are finite and of sane size.
+    """
     parts = []
     for block in _blocks(text):
         if block.strip(_PLAIN):
             return None
         try:
-            parts.append(np.fromstring(block, dtype=np.float64, sep=" "))
+            part = np.fromstring(block, dtype=np.float64, sep=" ")
         except (ValueError, DeprecationWarning):  # "1-2"; older versions of NumPy end there
             return None
+        if not (np.abs(part) <= LARGEST_VALUE).all():
+            return None
+        parts.append(part)
     return np.concatenate(parts) if parts else np.empty(0)
 
 

@@ -27,10 +27,14 @@ _ANIMAL = _WINGS | {
     "fetlock",
 }
 
+_LIMBS = frozenset({"leg", "arm", "limb", "tentacle", "foreleg", "hindleg"})
+
 _SHARES = {"thighs to shanks": (0.25, 4.0), "arms to legs": (0.2, 3.0), "trunk to legs": (0.12, 4.0)}
 """Of lengths; game characters with short legs and long arms are people as well."""
 
 _NO_BONE = 1000.0
+_LIMB, _MORE = 0.6, 2
+"""Share of a leg's length from which on a line of joints is a limb; as many of them are more than tail and hair."""
 _ALWAYS = 0.95
 _LYING = 0.6
 """Cosine between trunk and vertical below which the trunk does not stand."""
@@ -39,7 +43,7 @@ _REACH = 0.35
 """Distance in leg lengths from the floor within which hands carry weight."""
 
 
-def require_person(tree: RigTree, motion: RigPose, up: Array, *, stands: bool) -> None:
+def require_person(tree: RigTree, motion: RigPose, up: Array, *, stands: bool, sided: bool) -> None:
     """Refuse what has limbs but is no person.
 
     Args:
@@ -47,11 +51,13 @@ def require_person(tree: RigTree, motion: RigPose, up: Array, *, stands: bool) -
         motion: all frames.
         up: ``(3,)`` the vertical.
         stands: whether the file has a pose in which a person could stand.
+        sided: whether the names tell left and right.
 
     Raises:
         RigError: names, proportions or posture are not those of a person; says which.
     """
     reason = _by_names(tree, motion, stands) or _by_proportions(motion)
+    reason = reason or _by_limbs(tree, motion, sided)
     if reason is None and not stands and _on_all_fours(motion, up):
         reason = "it always goes on all fours and has no pose in which a person could stand"
     if reason is not None:
@@ -90,6 +96,27 @@ def _by_proportions(motion: RigPose) -> str | None:
     return (
         None if odd is None else f"the length of its {odd.replace(' to ', ' is to that of its ')} as {found[odd]:.2g}"
     )
+
+
+def _by_limbs(tree: RigTree, motion: RigPose, sided: bool) -> str | None:
+    """More limbs as long as legs than a person has; where the names tell the sides, only those called so count."""
+    joints = motion.roles.joints
+    ours = {joints[f"{side}_{part}"] for side in ("left", "right") for part in ("hip", "shoulder")}
+    trunk = {joints["pelvis"], *motion.roles.spine, *motion.roles.neck}
+    inside = ours | trunk | {other for joint in ours for other in tree.ancestors(joint)}
+    leg = np.mean([tree.lengths[joints[f"{side}_{part}"]] for side in ("left", "right") for part in ("knee", "ankle")])
+    more = [
+        joint
+        for joint in range(len(tree.names))
+        if joint not in inside and tree.parents[joint] in trunk and _reach(tree, joint) > _LIMB * 2 * leg
+        if not sided or _LIMBS.intersection(words_of(tree.names[joint]))
+    ]
+    return f"it has {4 + len(more)} limbs" if len(more) >= _MORE else None
+
+
+def _reach(tree: RigTree, joint: int) -> float:
+    """Length of the longest line of joints below one."""
+    return max((float(tree.lengths[child]) + _reach(tree, child) for child in tree.children[joint]), default=0.0)
 
 
 def _on_all_fours(motion: RigPose, up: Array) -> bool:

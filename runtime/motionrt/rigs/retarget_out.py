@@ -16,6 +16,7 @@ from dataclasses import replace
 import numpy as np
 
 from motionrt.errors import InvalidInputError, RigError
+from motionrt.limits import how_to_raise, limits
 from motionrt.motion.motion import Motion
 from motionrt.motion.skeleton import SMPL24
 from motionrt.rigs.build import read_build
@@ -28,9 +29,6 @@ from motionrt.rigs.stance import Stance, read_stance
 from motionrt.rigs.target import Rig, RigMotion
 from motionrt.rigs.tree import RigTree
 from motionrt.untrusted.arguments import check_kind, checked_mapping
-
-VALUE_LIMIT = 20_000_000
-"""Frames times joints at most: about 700 MB of rotations."""
 
 _ENOUGH = 30
 """Frames from which the animation of a rig may say how its joints are turned, if none of its poses does."""
@@ -68,8 +66,9 @@ def to_rig(
     given = checked_mapping(mapping, "mapping")
     if motion.skeleton != SMPL24:
         raise InvalidInputError("only motions of the smpl24 skeleton can be retargeted")
-    if motion.frames * len(rig.clip.names) > VALUE_LIMIT:
-        raise InvalidInputError(f"{motion.frames} frames of {len(rig.clip.names)} joints are too many; cut the motion")
+    if motion.frames * len(rig.clip.names) > limits().values:
+        many = f"{motion.frames:,} frames of {len(rig.clip.names)} joints are too many"
+        raise InvalidInputError(f"{many}: cut the motion; {how_to_raise('values')}")
     mapping = {**rig.clip.known, **(given or {})} or None
     stance = read_stance(rig.clip, mapping, rig.poses)
     off = [name for name in ("left_ankle", "right_ankle") if not _hangs(rig.clip, stance, name)]
@@ -81,7 +80,7 @@ def to_rig(
             " save it in its T-pose"
         )
     local = rig.clip.rest_rotations() if stance.local is None else stance.local
-    turned = drive(motion.global_rotations().astype(np.float64), rig.clip, stance, local)
+    turned = drive(motion.global_rotations(), rig.clip, stance, local)
     build = read_build(rig.clip, stance, local)
     root = place_legs(turned, motion, stance, build)
     share_twists(turned, rig.clip, stance, local)

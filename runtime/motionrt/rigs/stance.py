@@ -62,12 +62,13 @@ def read_stance(
     motion = animated_pose(clip, roles)
     if not np.isfinite(motion.positions).all():
         raise RigError("the clip holds positions that are not finite")
+    sided = roles.sided
     if not _sides_given(mapping):
         roles = motion.roles = _one_sided(motion)
     local, still, axes = _standing(clip, roles, poses)
     to_world = to_y_up(clip.up, motion, axes)
     if not mapping:
-        require_person(RigTree(clip), motion, to_world[1], stands=axes is not None)
+        require_person(RigTree(clip), motion, to_world[1], stands=axes is not None, sided=sided)
     if still is not None and axes is not None:
         alignments = align_elbows(motion, align_standing(still, axes))
     else:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -27,6 +27,7 @@ class _Body:
     first_line: int
     degrees: bool | None
     fps: float | None
+    notes: tuple[str, ...] = ()
 
 
 def read_amc(path: str | Path, asf: str | Path | None = None, *, fps: float | None = None) -> RigClip:
@@ -49,10 +50,13 @@ def read_amc(path: str | Path, asf: str | Path | None = None, *, fps: float | No
     path = as_path(path)
     body = _read_body(path)
     skeleton = find_asf(path) if asf is None else read_asf(asf)
-    channels = _read_frames(body, skeleton, path)
+    layout = _first_frame(body, skeleton, path)
+    body = _without_cut_frame(body, layout)
+    channels = _read_frames(body, layout, path)
+    channels = {_bone(name, skeleton): values for name, values in channels.items()}
     degrees = skeleton.angles_in_degrees if body.degrees is None else body.degrees
     rate = fps or body.fps or find_fps(path)
-    return build_rig(skeleton, channels, degrees, float(rate))
+    return replace(build_rig(skeleton, channels, degrees, float(rate)), notes=body.notes)
 
 
 def _read_body(path: Path) -> _Body:
@@ -83,9 +87,30 @@ def _stated_rate(line: str, path: Path, number: int) -> float | None:
     return rate
 
 
-def _read_frames(body: _Body, skeleton: AsfSkeleton, path: Path) -> dict[str, Values]:
+def _without_cut_frame(body: _Body, layout: list[tuple[str, int]]) -> _Body:
+    """Without the last frame of an interrupted export, which begins as the first one does and then ends."""
+    starts = [i for i, line in enumerate(body.lines) if line.strip().isdecimal()]
+    last = [line.split() for line in body.lines[starts[-1] + 1 :] if line.strip()]
+    ends = [(words[0], len(words) - 1) for words in last]
+    whole, rest = ends[:-1], ends[-1:]
+    cut = ends != layout and whole == layout[: len(whole)] and len(whole) < len(layout)
+    name, count = layout[len(whole)] if cut else ("", 0)
+    if len(starts) < 2 or not cut or any(not name.startswith(word) or values > count for word, values in rest):
+        return body
+    note = f"ends within frame {body.lines[starts[-1]].strip()}; the {len(starts) - 1} whole frames before it are read"
+    return replace(body, lines=body.lines[: starts[-1]], notes=(note,))
+
+
+def _bone(name: str, skeleton: AsfSkeleton) -> str:
+    """The skeleton's bone of that name, however its letters are written."""
+    if name in skeleton.bones:
+        return name
+    alike = [bone for bone in skeleton.bones if bone.lower() == name.lower()]
+    return alike[0] if len(alike) == 1 else name
+
+
+def _read_frames(body: _Body, layout: list[tuple[str, int]], path: Path) -> dict[str, Values]:
     """Channel values ``(F, n)`` of every bone that the file moves."""
-    layout = _first_frame(body, skeleton, path)
     words = " ".join(body.lines).split()
     width = 1 + sum(1 + count for _, count in layout)
     channels = _uniform_frames(words, layout, width) if len(words) % width == 0 else None
@@ -111,7 +136,7 @@ def _first_frame(body: _Body, skeleton: AsfSkeleton, path: Path) -> list[tuple[s
 
 
 def _check_bone(words: list[str], skeleton: AsfSkeleton, path: Path, line: int) -> None:
-    bone = skeleton.bones.get(words[0])
+    bone = skeleton.bones.get(_bone(words[0], skeleton))
     if bone is None:
         raise FormatError(path, f"{skeleton.path.name} has no bone '{shorten(words[0])}'", line)
     if len(words) - 1 != len(bone.dof):

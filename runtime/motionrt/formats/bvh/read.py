@@ -79,9 +79,14 @@ def parse_bvh(path: str | Path, *, fps: float | None = None) -> BvhText:
 
 
 def _with_points(text: str) -> str:
-    """``text`` with decimal points where all its numbers have decimal commas."""
-    numbers = text[text.find("MOTION") :]
-    return _COMMA.sub(".", text) if "," in numbers and "." not in numbers else text
+    """``text`` with decimal points where all its numbers have decimal commas, and blanks where commas divide them."""
+    start = text.find("MOTION")
+    numbers = text[start:]
+    if "," not in numbers and ";" not in numbers:
+        return text
+    if "." not in numbers:
+        return _COMMA.sub(".", text).replace(";", " ")
+    return text[:start] + numbers.replace(",", " ").replace(";", " ")
 
 
 def _read_motion(

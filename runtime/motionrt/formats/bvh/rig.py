@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from motionrt.formats.bvh.hierarchy import BvhJoint
 from motionrt.formats.bvh.values import Values
+from motionrt.motion.batches import by_batches
 from motionrt.motion.rotations import euler_to_matrix
 from motionrt.rigs.clip import RigClip
 
@@ -28,7 +29,7 @@ def build_rig(joints: list[BvhJoint], values: Values, fps: float) -> RigClip:
         parents=tuple(joint.parent for joint in joints),
         offsets=offsets.astype(np.float32),
         rotations=_rotations(joints, values),
-        translations=translations.astype(np.float32),
+        translations=by_batches(lambda part: part.astype(np.float32), translations),
         fps=fps,
     )
 
@@ -39,12 +40,17 @@ def _first_columns(joints: list[BvhJoint]) -> list[int]:
 
 
 def _translations(joints: list[BvhJoint], offsets: Values, values: Values) -> Values:
-    out = np.tile(offsets, (len(values), 1, 1))
-    for j, (joint, first) in enumerate(zip(joints, _first_columns(joints), strict=True)):
-        for i, axis in joint.positions:
-            out[:, j, axis] = values[:, first + i]
+    def placed(part: Values) -> Values:
+        out = np.tile(offsets, (len(part), 1, 1))
+        for j, (joint, first) in enumerate(zip(joints, _first_columns(joints), strict=True)):
+            for i, axis in joint.positions:
+                out[:, j, axis] = part[:, first + i]
+        return out
+
+    out = by_batches(placed, values)
     relative = joints_with_differences(joints, offsets, out)
-    out[:, relative] += offsets[relative]
+    if relative:
+        out[:, relative] += offsets[relative]
     return out
 
 
@@ -63,15 +69,17 @@ def joints_with_differences(joints: list[BvhJoint], offsets: Values, translation
 
 def _rotations(joints: list[BvhJoint], values: Values) -> npt.NDArray[np.float32]:
     out = np.empty((len(values), len(joints), 3, 3), dtype=np.float32)
-    out[:] = np.eye(3, dtype=np.float32)
     first = _first_columns(joints)
     groups: defaultdict[str, list[int]] = defaultdict(list)
     for j, joint in enumerate(joints):
         groups[joint.rotation_order].append(j)
-    groups.pop("", None)
-    for order, members in groups.items():
-        columns = [[first[j] + i for i in joints[j].rotations] for j in members]
-        for start in range(0, len(values), _BLOCK):
-            block = slice(start, start + _BLOCK)
-            out[block, members] = euler_to_matrix(np.deg2rad(values[block, columns]), order)
+    still = groups.pop("", [])
+    columns = {
+        order: [[first[j] + i for i in joints[j].rotations] for j in members] for order, members in groups.items()
+    }
+    for start in range(0, len(values), _BLOCK):
+        block = slice(start, start + _BLOCK)
+        out[block, still] = np.eye(3, dtype=np.float32)
+        for order, members in groups.items():
+            out[block, members] = euler_to_matrix(np.deg2rad(values[block, columns[order]]), order)
     return out

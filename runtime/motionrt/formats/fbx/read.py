@@ -13,11 +13,13 @@ from motionrt.formats.fbx.joints import Joints, find_joints, pose_of, rest_of, s
 from motionrt.formats.fbx.scene import Scene, open_scene
 from motionrt.formats.fbx.takes import Take, moves, takes_of
 from motionrt.formats.gltf.choice import called, chosen
+from motionrt.limits import how_to_raise, limits
 from motionrt.motion.rotations import Array
 from motionrt.rigs.clip import RigClip
 from motionrt.untrusted.files import as_path
 
-VALUE_LIMIT = 20_000_000
+_DEAR = 12
+"""How many times as long as in glTF it takes to evaluate a joint at a time."""
 
 
 def read_fbx(
@@ -48,12 +50,21 @@ def read_fbx(
         stack = _take(scene, joints.nodes, animation, path)
         rate = float(fps) if fps is not None else _rate(scene)
         frames = max(1, round((stack.time_end - stack.time_begin) * rate) + 1)
-        if frames * len(joints.nodes) > VALUE_LIMIT:
-            raise FormatError(path, f"its animation has {frames} frames at {rate:g} fps; cut it")
+        _check_length(frames, len(joints.nodes), path)
         rotations, translations = _sampled(joints, stack, stack.time_begin + np.arange(frames) / rate)
         offsets, rest = rest_of(scene, joints)
     rest = rest.astype(np.float32)
     return RigClip(joints.names, tuple(joints.parents), offsets, rotations, translations, rate, "y", 1.0, rest)
+
+
+def _check_length(frames: int, joints: int, path: Path) -> None:
+    """FormatError for an animation that is too long, or so long that its file must have few keys."""
+    most = max(limits().stretched_values // _DEAR, path.stat().st_size)
+    limit = "values" if frames * joints > limits().values else "stretched_values"
+    if frames * joints > min(limits().values, most):
+        many = f"its animation has {frames:,} frames of {joints} joints"
+        many += f", each counted {_DEAR} times" if limit == "stretched_values" else ""
+        raise FormatError(path, f"{many}; cut it, give a lower fps=, or: {how_to_raise(limit)}")
 
 
 def _standing(scene: Scene, joints: Joints) -> RigClip:

@@ -24,9 +24,6 @@ from motionrt.motion.skeleton import FloatArray
 from motionrt.rigs.clip import RigClip
 from motionrt.untrusted.files import as_path
 
-VALUE_LIMIT = 20_000_000
-"""Frames times joints of a clip at most: about 700 MB of rotations."""
-
 Tracks = dict[tuple[int, str], Track]
 
 
@@ -102,8 +99,10 @@ class GlbDocument:
                     f"its animation of {keys} keys has {frames:,} frames at {rate:g} fps; cut it, give a lower fps=, "
                     f"or: {how_to_raise('stretched_frames')}",
                 )
-            if frames * len(self.skeleton.nodes) > VALUE_LIMIT:
-                raise FormatError(self.path, f"its animation has {frames} frames at {rate:g} fps; cut it")
+            limit = "values" if frames <= 2 * keys else "stretched_values"
+            if frames * len(self.skeleton.nodes) > getattr(limits(), limit):
+                many = f"its animation has {frames:,} frames of {len(self.skeleton.nodes)} joints at {rate:g} fps"
+                raise FormatError(self.path, f"{many}; cut it, or: {how_to_raise(limit)}")
             times = start + np.arange(frames) / rate
         offsets, rest = bind_pose(self.json, self.arrays, self.tree, self.skeleton)
         rotations, translations = self._sampled(tracks or {}, times)
