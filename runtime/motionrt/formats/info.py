@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +14,7 @@ from motionrt.errors import RigError
 from motionrt.formats.leading_pose import drop_leading_tpose
 from motionrt.formats.load import load_rig
 from motionrt.formats.units import metres_per_unit
+from motionrt.motion.batches import BATCH
 from motionrt.motion.motion import Motion
 from motionrt.motion.rotations import Array
 from motionrt.motion.skeleton import SMPL24
@@ -27,6 +28,9 @@ from motionrt.untrusted.arguments import checked_mapping
 from motionrt.untrusted.files import as_path
 
 _LIMBS = (("hip", "knee"), ("knee", "ankle"), ("shoulder", "elbow"), ("elbow", "wrist"))
+_LOOKED_AT = 20_000
+"""Frames of a file that are compared with its motion."""
+
 _FAR_OFF = 3.0
 """Mean angle in degrees between limbs of file and motion from which on it is worth a warning."""
 
@@ -84,15 +88,16 @@ def motion_file_info(path: str | Path, *, mapping: Mapping[str, str] | None = No
         clip = load_rig(path, **reading)
     mapping = checked_mapping(mapping, "mapping")
     part, reference = drop_leading_tpose(clip)
+    frames, part = part.frames, _some(part)
     joints = sum(not name.endswith("_end") for name in clip.names)
     facts: dict[str, Any] = {
         "path": as_path(path),
         "kind": rig_kind(clip.names),
         "joints": joints,
         "fps": clip.fps,
-        "frames": part.frames,
-        "leading_pose": clip.frames - part.frames,
-        "seconds": part.frames / clip.fps,
+        "frames": frames,
+        "leading_pose": clip.frames - frames,
+        "seconds": frames / clip.fps,
     }
     try:
         given = {**clip.known, **(mapping or {})} or None
@@ -116,17 +121,32 @@ def motion_file_info(path: str | Path, *, mapping: Mapping[str, str] | None = No
     )
 
 
+def _some(clip: RigClip) -> RigClip:
+    """Every n-th frame of a long clip: what is asked does not depend on all of them."""
+    step = -(-clip.frames // _LOOKED_AT)
+    parts = clip.rotations[::step], clip.translations[::step]
+    return clip if step == 1 else replace(clip, rotations=parts[0], translations=parts[1], fps=clip.fps / step)
+
+
 def limb_error(clip: RigClip, stance: Stance, motion: Motion) -> float:
     """Mean angle in degrees between the limbs of a clip and those of the motion that was made of it."""
-    places = joint_transforms(clip)[..., :3, 3] @ stance.to_world.T
-    joints, found = stance.roles.joints, motion.positions().astype(np.float64)
-    angles = []
+    angles, found = [], motion.positions()
+    for start in range(0, clip.frames, BATCH):
+        part = slice(start, start + BATCH)
+        places = joint_transforms(clip.slice(start, start + BATCH))[..., :3, 3] @ stance.to_world.T
+        angles.append(_limb_angles(places, found[part].astype(np.float64), stance))
+    return float(np.concatenate(angles).mean())
+
+
+def _limb_angles(places: Array, found: Array, stance: Stance) -> Array:
+    """``(F, 8)`` degrees between the limbs of joints ``(F, J, 3)`` of the file and ``(F, 24, 3)`` of the motion."""
+    joints, angles = stance.roles.joints, []
     for side in ("left", "right"):
         for upper, lower in _LIMBS:
             bone = places[:, joints[f"{side}_{lower}"]] - places[:, joints[f"{side}_{upper}"]]
             ours = found[:, SMPL24.index(f"{side}_{lower}")] - found[:, SMPL24.index(f"{side}_{upper}")]
-            angles.append(angles_between(bone, ours).mean())
-    return float(np.mean(angles))
+            angles.append(angles_between(bone, ours))
+    return np.stack(angles, axis=1)
 
 
 def _axis(stance: Stance) -> str:

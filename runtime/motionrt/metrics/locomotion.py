@@ -6,6 +6,7 @@ Arrays in, numbers out. Positions are global joints ``(F, 24, 3)`` of ``smpl24``
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -36,7 +37,7 @@ def foot_skate(positions: npt.ArrayLike, floor: float = 0.0) -> float:
 
 def foot_skates(positions: npt.ArrayLike, floor: float = 0.0) -> Floats:
     """``(F - 1,)``: what every frame adds to :func:`foot_skate`, cm."""
-    toes = _frames(positions, 2)[:, _TOES] * 100
+    toes = _frames(positions, 2, _TOES) * 100
     step = np.linalg.norm(np.diff(toes[..., [0, 2]], axis=0), axis=-1)
     height = np.maximum(toes[1:, :, 1] - 100 * floor, 0)
     weight = np.where(height <= SKATE_HEIGHT_CM, 2 - 2 * height / SKATE_HEIGHT_CM, 0)
@@ -147,11 +148,12 @@ def end_error(positions: npt.ArrayLike, target: npt.ArrayLike) -> EndError:
     return EndError(joints, root, float(np.degrees(abs(turn))))
 
 
-def _frames(positions: npt.ArrayLike, least: int) -> Floats:
-    out = np.asarray(positions, dtype=np.float64)
+def _frames(positions: npt.ArrayLike, least: int, joints: Sequence[int] | None = None) -> Floats:
+    """Positions ``(F, 24, 3)`` in float64, or those of ``joints``."""
+    out = np.asarray(positions)
     if out.ndim != 3 or out.shape[1:] != (len(SMPL24), 3) or len(out) < least:
         raise InvalidInputError(f"positions must have the shape (frames >= {least}, {len(SMPL24)}, 3), not {out.shape}")
-    return out
+    return np.asarray(out if joints is None else out[:, joints], dtype=np.float64)
 
 
 def _ground(points: npt.ArrayLike, name: str) -> Floats:

@@ -10,7 +10,7 @@ import numpy as np
 
 from motionrt.errors import InvalidInputError
 from motionrt.motion import checks
-from motionrt.motion.batches import BATCH
+from motionrt.motion.batches import BATCH, by_batches
 from motionrt.motion.kinematics import fk
 from motionrt.motion.skeleton import SMPL24, FloatArray, Skeleton
 from motionrt.untrusted.words import shown
@@ -71,7 +71,7 @@ class Frames:
         """The same; takes over the global positions and rotations that ``other``, ``offset`` (3,) away, has found."""
         if "_posed" in vars(other) and "_posed" not in vars(self):
             positions, rotations = other._posed
-            positions = positions + offset
+            positions = by_batches(lambda part: part + offset, positions)
             positions.setflags(write=False)
             vars(self)["_posed"] = positions, rotations
         return self

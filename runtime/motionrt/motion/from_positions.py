@@ -10,6 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from motionrt.errors import InvalidInputError
+from motionrt.motion.batches import by_batches
 from motionrt.motion.motion import Motion
 from motionrt.motion.rotations import Array, lengths, normalise, rotation_between
 from motionrt.motion.skeleton import SMPL22_JOINTS, SMPL24
@@ -70,10 +71,11 @@ def checked_joints(joints: Array) -> Array:
     Raises:
         InvalidInputError: another shape, no frames, or numbers that are not finite.
     """
-    given = np.asarray(joints, dtype=np.float64)
+    given = np.asarray(joints)
     if given.ndim != 3 or given.shape[1] not in (SMPL22_JOINTS, len(SMPL24)) or given.shape[2] != 3 or not len(given):
         raise InvalidInputError(f"joint positions must have the shape (frames >= 1, 22 or 24, 3), not {given.shape}")
-    if not np.isfinite(given).all():
+    given = by_batches(lambda part: part.astype(np.float64), given)
+    if not by_batches(lambda part: np.isfinite(part).all(axis=(1, 2)), given).all():
         raise InvalidInputError("joint positions hold a number that is not finite")
     return given
 

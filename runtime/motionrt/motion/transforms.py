@@ -60,13 +60,18 @@ def resample(motion: Clip, fps: float) -> Clip:
     before = np.minimum(times.astype(int), motion.frames - 1)
     after = np.minimum(before + 1, motion.frames - 1)
     weight = (times - before).astype(np.float32)
-    root = motion.root[before] * (1 - weight[:, None]) + motion.root[after] * weight[:, None]
+    root = by_batches(lambda *rows: _beside(motion.root, *rows), before, after, weight)
     if weight.max(initial=0) > 1e-6:  # between frames: spherical interpolation; otherwise frames are just picked
         quaternions = by_batches(matrix_to_quaternion, motion.rotations)
         rotations = by_batches(lambda *rows: _between(quaternions, *rows), before, after, weight)
     else:
         rotations = by_batches(lambda rows: motion.rotations[rows], before)
     return replace(motion, rotations=rotations, root=root, fps=fps)
+
+
+def _beside(places: FloatArray, before: Array, after: Array, weight: Array) -> FloatArray:
+    """Places between those of two rows of frames."""
+    return np.asarray(places[before] * (1 - weight[:, None]) + places[after] * weight[:, None], dtype=np.float32)
 
 
 def _between(quaternions: Array, before: Array, after: Array, weight: Array) -> FloatArray:
@@ -85,9 +90,14 @@ def mirror(motion: Clip) -> Clip:
 def turned(motion: Clip, yaw: float) -> Clip:
     """Turn about the vertical axis through the world's origin by ``yaw`` radians."""
     turn = axis_rotation("Y", np.float32(yaw)).astype(np.float32)
-    rotations = by_batches(np.copy, motion.rotations)
-    rotations[:, 0] = turn @ rotations[:, 0]
-    return replace(motion, rotations=rotations, root=motion.root @ turn.T)
+
+    def turned_part(rotations: FloatArray) -> FloatArray:
+        out = rotations.copy()
+        out[:, 0] = turn @ out[:, 0]
+        return out
+
+    rotations = by_batches(turned_part, motion.rotations)
+    return replace(motion, rotations=rotations, root=by_batches(lambda part: part @ turn.T, motion.root))
 
 
 def moved(motion: Clip, offset: Array) -> Clip:

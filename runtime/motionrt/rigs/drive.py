@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 
+from motionrt.motion.batches import by_batches
 from motionrt.motion.rotations import Array, matrix_to_quaternion, quaternion_to_matrix, rotation_between, slerp
 from motionrt.motion.skeleton import SMPL24, FloatArray
 from motionrt.rigs.alignment import SIDES, rest_direction
@@ -18,7 +21,7 @@ _SWUNG = (("hip", "knee"), ("knee", "ankle"), ("shoulder", "elbow"), ("elbow", "
 _TRUNK, _NECK = ("pelvis", "spine1", "spine2", "spine3"), ("spine3", "neck", "head")
 
 
-def drive(turned: Array, clip: RigClip, stance: Stance, local: FloatArray) -> Turned:
+def drive(turned: FloatArray, clip: RigClip, stance: Stance, local: FloatArray) -> Turned:
     """Global rotations of the joints that have a role, Y up.
 
     Trunk and neck of any number of joints share the turns of ``smpl24`` evenly, limbs point exactly where its limbs
@@ -38,11 +41,11 @@ def drive(turned: Array, clip: RigClip, stance: Stance, local: FloatArray) -> Tu
     return out
 
 
-def _counterparts(turned: Array, stance: Stance) -> Turned:
+def _counterparts(turned: FloatArray, stance: Stance) -> Turned:
     """For every joint to be driven, what ``smpl24`` does there."""
     joints = stance.roles.joints
     out = {
-        joint: turned[:, SMPL24.index(role)]
+        joint: _of(turned, role)
         for role, joint in joints.items()
         if joint in stance.alignments and not role.endswith("_hand") and not role.startswith(("spine", "neck", "head"))
     }
@@ -54,26 +57,35 @@ def _counterparts(turned: Array, stance: Stance) -> Turned:
                 out[joint] = _between(turned, chain, place / (len(line) - 1))
     for role in ("spine1", "spine2", "spine3", "neck"):  # joints that the user has mapped
         if joints.get(role) in stance.alignments:
-            out[joints[role]] = turned[:, SMPL24.index(role)]
+            out[joints[role]] = _of(turned, role)
     return out
 
 
-def _between(turned: Array, chain: tuple[str, ...], share: float) -> Array:
+def _between(turned: FloatArray, chain: tuple[str, ...], share: float) -> Array:
     """Rotations ``(F, 3, 3)`` at ``share`` (0 to 1) of a chain of ``smpl24`` joints, by slerp."""
     place = share * (len(chain) - 1)
     below = min(int(place + 1e-9), len(chain) - 2)
-    lower, upper = (turned[:, SMPL24.index(name)] for name in chain[below : below + 2])
+    lower, upper = (_of(turned, name) for name in chain[below : below + 2])
     weight = place - below
     if weight < 1e-6 or weight > 1 - 1e-6:
         return np.asarray(lower if weight < 0.5 else upper)
+    return by_batches(partial(_share, weight), lower, upper)
+
+
+def _share(weight: float, lower: Array, upper: Array) -> Array:
     start, end = matrix_to_quaternion(lower), matrix_to_quaternion(upper)
     return quaternion_to_matrix(slerp(start, end, np.full(len(start), weight)))
 
 
-def _swing(out: Turned, turned: Array, still: RigPose, role: str, end: str) -> None:
+def _of(turned: FloatArray, role: str) -> Array:
+    """Global rotations ``(F, 3, 3)`` of one joint of ``smpl24``, float64."""
+    return turned[:, SMPL24.index(role)].astype(np.float64)
+
+
+def _swing(out: Turned, turned: FloatArray, still: RigPose, role: str, end: str) -> None:
     """Turn a limb bone by the little that it lacks to point where that of ``smpl24`` points."""
     joint = still.roles.joints[role]
     bone = still.rotations[joint].T @ still.bone(role, end)
     if joint in out and np.linalg.norm(bone) > 1e-9:
-        wanted = turned[:, SMPL24.index(role)] @ rest_direction(role, end)
-        out[joint] = rotation_between(out[joint] @ bone, wanted) @ out[joint]
+        wanted = _of(turned, role) @ rest_direction(role, end)
+        out[joint] = by_batches(lambda one, other: rotation_between(one @ bone, other) @ one, out[joint], wanted)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from motionrt.motion.batches import by_batches
 from motionrt.motion.feet.two_bone import LEG_JOINTS, soft_limit, two_bone
 from motionrt.motion.motion import Motion
 from motionrt.motion.rotations import Array
@@ -42,7 +43,7 @@ def place_legs(turned: Turned, motion: Motion, stance: Stance, build: Build) -> 
     forward = motion.global_rotations()[:, [leg[0] for leg in LEG_JOINTS]][..., 2].astype(np.float64)
     uppers = [[joints[f"{side}_{part}"] for part in ("hip", "knee")] for side in SIDES]
     rotations = np.stack([np.stack([turned[joint] for joint in pair], axis=1) for pair in uppers], axis=1)
-    _, bent = two_bone(chains, rotations, target, forward)
+    bent = by_batches(lambda *rows: two_bone(*rows)[1], chains, rotations, target, forward)
     for side, pair in enumerate(uppers):
         for part, joint in enumerate(pair):
             turned[joint] = bent[:, side, part]

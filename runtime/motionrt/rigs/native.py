@@ -35,7 +35,10 @@ def as_own_motion(clip: RigClip) -> Motion | None:
     moves = by_batches(lambda some: np.abs(some[:, limbs] - clip.offsets[limbs]).max(axis=(1, 2)), clip.translations)
     if scale * float(moves.max()) > _TOLERANCE or np.abs(scale * offsets - body).max() > _TOLERANCE:
         return None
-    return Motion(clip.rotations[:, order], scale * clip.translations[:, order[0]], clip.fps)
+    rotations = clip.rotations
+    if order != list(range(len(clip.names))):
+        rotations = by_batches(lambda some: some[:, order], rotations)
+    return Motion(rotations, scale * clip.translations[:, order[0]], clip.fps)
 
 
 def _snapped(ratio: float) -> float:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from motionrt.errors import RigError
+from motionrt.motion.batches import by_batches
 from motionrt.motion.motion import Motion
 from motionrt.motion.rotations import Array, axis_rotation, yaw_angle
 from motionrt.motion.skeleton import FloatArray
@@ -50,18 +51,25 @@ class _Pose:
 
     def __init__(self, rig: Rig, local: FloatArray, frames: int) -> None:
         self._parents, self._local, self._offsets = rig.clip.parents, local.astype(np.float64), rig.clip.offsets
-        self._translations = np.repeat(rig.clip.offsets[None].astype(np.float32), frames, axis=0)
+        offsets, count = rig.clip.offsets.astype(np.float32), np.broadcast_to(np.float32(0), frames)
+        self._translations = by_batches(lambda part: np.repeat(offsets[None], len(part), axis=0), count)
 
     def finish(self, turned: Turned) -> tuple[FloatArray, FloatArray]:
         """Local rotations and translations of all joints."""
-        frames, joints = self._translations.shape[:2]
-        rotations = np.empty((frames, joints, 3, 3), dtype=np.float32)
+        joints, turns = list(turned), list(turned.values())
+        rotations = by_batches(lambda *part: self._rotations(dict(zip(joints, part, strict=True))), *turns)
+        return rotations, self._translations
+
+    def _rotations(self, turned: Turned) -> FloatArray:
+        """Local rotations ``(F, J, 3, 3)``."""
+        frames = len(next(iter(turned.values())))
+        rotations = np.empty((frames, len(self._parents), 3, 3), dtype=np.float32)
         world: dict[int, Array] = {}
         for joint, parent in enumerate(self._parents):
             above = world[parent] if parent >= 0 else np.eye(3)
             world[joint] = turned[joint] if joint in turned else above @ self._local[joint]
             rotations[:, joint] = np.swapaxes(above, -1, -2) @ world[joint] if joint in turned else self._local[joint]
-        return rotations, self._translations
+        return rotations
 
     def place(self, joint: int, position: Array, turned: Turned, mover: int) -> None:
         """Translate ``mover``, which is ``joint`` or above it, so that ``joint`` comes to ``position`` ``(F, 3)``."""

@@ -40,6 +40,7 @@ BROKEN = (
 """What zipfile, zlib and NumPy raise for a damaged file; nothing of this project is called where these are caught."""
 
 _MEMBERS, _NAME, _HEADER = 10_000, 200, 10_000
+_PIECE = 1 << 22  # bytes that are unpacked at once
 
 
 def read_arrays(path: Path, fail: Fail, names: Collection[str] | None = None) -> tuple[Arrays, list[str]]:
@@ -113,12 +114,15 @@ def _check_members(members: list[zipfile.ZipInfo], most: int, fail: Fail) -> Non
 
 
 def _array(archive: zipfile.ZipFile, member: zipfile.ZipInfo, fail: Fail) -> npt.NDArray[Any]:
+    file = io.BytesIO()
     with archive.open(member) as packed:
-        content = packed.read(member.file_size + 1)
-    file = io.BytesIO(content)
+        while file.tell() <= member.file_size and (part := packed.read(_PIECE)):
+            file.write(part)
+    held = file.tell()
+    file.seek(0)
     shape, _, dtype = _header(file)
-    if (claim := _claimed(shape, dtype, fail)) > len(content):
-        raise fail(f"is damaged ('{member.filename}' needs {claim:,} bytes, it has {len(content):,})", None)
+    if (claim := _claimed(shape, dtype, fail)) > held:
+        raise fail(f"is damaged ('{member.filename}' needs {claim:,} bytes, it has {held:,})", None)
     file.seek(0)
     return np.asarray(np.lib.format.read_array(file, allow_pickle=False, max_header_size=_HEADER))
 

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from motionrt.errors import InvalidInputError
+from motionrt.motion.batches import by_batches
 from motionrt.motion.skeleton import SMPL24
 
 Array = npt.NDArray[np.float64]
@@ -38,15 +39,18 @@ class Body:
         Raises:
             InvalidInputError: another shape, numbers that are not finite, or a frame rate that is not positive.
         """
-        joints = np.asarray(positions, dtype=np.float64)
+        joints = np.asarray(positions)
         if joints.ndim != 3 or joints.shape[1:] != (len(SMPL24), 3) or not len(joints):
             raise InvalidInputError(f"positions must have the shape (frames >= 1, 24, 3), not {joints.shape}")
-        if not np.isfinite(joints).all():
+        joints = by_batches(lambda part: part.astype(np.float64), joints)
+        if not by_batches(lambda part: np.isfinite(part).all(axis=(1, 2)), joints).all():
             raise InvalidInputError("positions hold a number that is not finite")
         if not (np.isfinite(fps) and fps > 0):
             raise InvalidInputError(f"fps must be a positive number, not {fps}")
         joints = _at_30(joints, float(fps))
-        return cls(joints - [0.0, np.percentile(joints[..., 1].min(axis=1), _ON_FLOOR), 0.0])
+        lowest = by_batches(lambda part: part[..., 1].min(axis=1), joints)
+        floor = [0.0, np.percentile(lowest, _ON_FLOOR), 0.0]
+        return cls(by_batches(lambda part: part - floor, joints))
 
     def __getitem__(self, joint: str) -> Array:
         """Path of a joint ``(F, 3)``."""
@@ -90,10 +94,7 @@ class Body:
     @cached_property
     def own(self) -> Array:
         """``(F, 24, 3)`` joints from the pelvis, in axes that turn with the body: left, up, forward; metres."""
-        away = self.joints - self["pelvis"][:, None]
-        c, s = np.cos(self.yaw)[:, None], np.sin(self.yaw)[:, None]
-        x, z = away[..., 0], away[..., 2]
-        return np.stack([x * c - z * s, away[..., 1], x * s + z * c], axis=-1)
+        return by_batches(_own, self.joints, self.yaw)
 
     @cached_property
     def ground(self) -> Array:
@@ -103,15 +104,21 @@ class Body:
     def moving(self, pairs: Sequence[tuple[str, str]]) -> Array:
         """``(F, K)`` speeds of joints about other ones, in the body's own axes, m/s."""
         of, about = ([JOINT[pair[k]] for pair in pairs] for k in (0, 1))
-        return speed(self.own[:, of] - self.own[:, about])
+        return speed(by_batches(lambda own: own[:, of] - own[:, about], self.own))
+
+
+def _own(joints: Array, yaw: Array) -> Array:
+    away = joints - joints[:, :1]
+    c, s = np.cos(yaw)[:, None], np.sin(yaw)[:, None]
+    x, z = away[..., 0], away[..., 2]
+    return np.stack([x * c - z * s, away[..., 1], x * s + z * c], axis=-1)
 
 
 def speed(path: Array) -> Array:
     """``(F, ...)`` speed of points ``(F, ..., D)``, m/s; of one frame 0."""
     if len(path) < 2:
         return np.zeros(path.shape[:-1])
-    steps = path[1:] - path[:-1]
-    steps = np.sqrt((steps * steps).sum(axis=-1)) * FPS
+    steps = by_batches(lambda here, there: np.sqrt(np.square(there - here).sum(axis=-1)) * FPS, path[:-1], path[1:])
     return np.concatenate([steps, steps[-1:]])
 
 

@@ -29,7 +29,7 @@ from functools import partial
 
 import numpy as np
 
-from motionrt.motion.batches import by_batches
+from motionrt.motion.batches import BATCH, by_batches
 from motionrt.motion.features import guo_skeleton as skeleton
 from motionrt.motion.features.checks import checked_features
 from motionrt.motion.from_positions import checked_joints, from_positions
@@ -118,9 +118,13 @@ def _features(pointing: Array, root: Array, bone_lengths: Array = skeleton.BONE_
     longer = by_batches(partial(skeleton.with_lengths, bone_lengths=bone_lengths), pointing, root)
     joints = skeleton.placed(longer)
     yaw = skeleton.headings(joints)
-    to_heading = axis_rotation("Y", -yaw)
-    steps, turns = _forward_difference(joints), wrapped(-_forward_difference(yaw)) / 2
-    rows = by_batches(_rows, joints, yaw, to_heading, _next(to_heading), steps, turns)
+    to_heading = by_batches(partial(axis_rotation, "Y"), -yaw)
+    turns = wrapped(-_forward_difference(yaw)) / 2
+    rows = np.empty((len(joints), WIDTH), np.float32)
+    for start in range(0, len(joints), BATCH):
+        here = slice(start, start + BATCH)
+        steps, to_next = _next(joints, here) - joints[here], _next(to_heading, here)
+        rows[here] = _rows(joints[here], yaw[here], to_heading[here], to_next, steps, turns[here])
     if len(rows) > 1:  # the steps of the last frame are those of the row before
         rows[-1, YAW_STEP : PLANAR.stop], rows[-1, VELOCITIES.start :] = (
             rows[-2, YAW_STEP : PLANAR.stop],
@@ -167,9 +171,12 @@ def _turn(matrices: Array, vectors: Array) -> Array:
     return np.asarray(vectors @ np.swapaxes(matrices, -1, -2))
 
 
-def _next(values: Array) -> Array:
-    """The values of the next frame; the last frame's stay."""
-    return np.concatenate([values[1:], values[-1:]])
+def _next(values: Array, here: slice = slice(None)) -> Array:
+    """For the frames ``here`` the values of the next one; the last frame's stay."""
+    start, stop, _ = here.indices(len(values))
+    if stop < len(values):
+        return values[start + 1 : stop + 1]
+    return np.concatenate([values[start + 1 :], values[-1:]])
 
 
 def _forward_difference(values: Array) -> Array:

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from motionrt.motion.batches import by_batches
 from motionrt.motion.rotations import Array, axis_rotation, lengths, yaw_angle
 from motionrt.motion.skeleton import SMPL22_JOINTS, SMPL24
 
@@ -102,11 +103,22 @@ def with_lengths(pointing: Array, root: Array, bone_lengths: Array) -> Array:
 
 def placed(joints: Array) -> Array:
     """The lowest joint of all frames at height 0; frame 0 above the origin and facing +Z."""
-    out = joints - joints[0, 0] * np.array([1.0, 0, 1])
-    out[..., 1] -= joints[..., 1].min()
-    first = out[0]
+    start, floor = joints[0, 0] * np.array([1.0, 0, 1]), by_batches(_lowest, joints).min()
+    first = joints[0] - start
     across = first[RIGHT_HIP] - first[LEFT_HIP] + first[RIGHT_SHOULDER] - first[LEFT_SHOULDER]
-    return np.asarray(out @ axis_rotation("Y", -yaw_angle(_forward(across))).T)
+    turn = axis_rotation("Y", -yaw_angle(_forward(across))).T
+
+    def moved(part: Array) -> Array:
+        out = part - start
+        out[..., 1] -= floor
+        return np.asarray(out @ turn)
+
+    return by_batches(moved, joints)
+
+
+def _lowest(joints: Array) -> Array:
+    """``(F,)`` height of the lowest joint."""
+    return np.asarray(joints[..., 1].min(axis=1))
 
 
 def headings(joints: Array) -> Array:

@@ -12,6 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from motionrt.errors import InvalidInputError
+from motionrt.motion.batches import by_batches
 from motionrt.motion.feet.contacts import LOOSE_SPEED, STRICT_SPEED, speeds, still
 from motionrt.motion.feet.two_bone import LEG_JOINTS, bend_legs, soft_limit
 from motionrt.motion.motion import Motion
@@ -69,7 +70,7 @@ def lock_feet(
     drop = smooth_cover(needed_drop(positions, offset, planted, max_drop), max(1, round(blend_s * motion.fps / 2)))
     offset[..., 1] += drop[:, None]
     sunk = np.array([0, 1, 0]) * drop[:, None]
-    rotations = bend_legs(motion.rotations, positions - sunk[:, None], motion.global_rotations(), offset)
+    rotations = by_batches(bend_legs, motion.rotations, positions - sunk[:, None], motion.global_rotations(), offset)
     return replace(motion, rotations=rotations, root=(motion.root - sunk).astype(np.float32))
 
 
