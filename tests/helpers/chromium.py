@@ -63,7 +63,7 @@ class Page:
         self._number += 1
         self._socket.send(json.dumps({"id": self._number, "method": method, "params": parameters}))
         while True:
-            answer = json.loads(self._socket.recv(timeout=60))
+            answer = json.loads(self._socket.recv(timeout=240))
             if answer.get("id") == self._number:
                 if "error" in answer:
                     raise RuntimeError(f"{method}: {answer['error']}")
@@ -210,14 +210,14 @@ class Browser:
 
 
 @contextmanager
-def browser(folder: Path) -> Iterator[Browser]:
-    """Chromium with a fresh profile in a folder."""
+def browser(folder: Path, *flags: str) -> Iterator[Browser]:
+    """Chromium with a fresh profile in a folder, and further flags."""
     program = find_chromium()
     assert program is not None
     profile = folder / "profile"
     with (folder / "chromium.log").open("wb") as log:
         started = subprocess.Popen(
-            [program, *FLAGS, f"--user-data-dir={profile}", "about:blank"], stdout=log, stderr=log
+            [program, *FLAGS, *flags, f"--user-data-dir={profile}", "about:blank"], stdout=log, stderr=log
         )
         try:
             told = profile / "DevToolsActivePort"
