@@ -124,11 +124,14 @@ def in_page(site: Path, place: Path) -> dict[str, float]:
 
 
 def sites(place: Path, portable: Path | None) -> dict[str, Path]:
-    """Folders for the page: of the shipped files, and of the portable ones."""
-    gallery = motionrt.Runtime().gallery()
-    found = {"shipped": write_folder(place / "shipped", {"starter": gallery}, pages=WEB / "dist" / "demo")}
+    """Folders for the page: of the shipped files, of the same without rounding, and of the portable ones."""
+    galleries, pages = {"starter": motionrt.Runtime().gallery()}, WEB / "dist" / "demo"
+    found = {
+        "shipped": write_folder(place / "shipped", galleries, pages=pages),
+        "exact": write_folder(place / "exact", galleries, pages=pages, exact=True),
+    }
     if portable is not None:
-        found["portable"] = write_folder(place / "portable", {"starter": gallery}, pages=WEB / "dist" / "demo")
+        found["portable"] = write_folder(place / "portable", galleries, pages=pages)
         told = json.loads((found["portable"] / "models.json").read_text(encoding="utf-8"))
         for name in MODELS:
             file = portable / f"{name}.portable.onnx"

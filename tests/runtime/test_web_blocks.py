@@ -61,3 +61,43 @@ def test_blocks_are_decoded_by_plain_operators_to_the_same_numbers(bias: bool) -
 def test_a_model_without_such_blocks_stays_byte_by_byte() -> None:
     content = model(bias=True, bits=4).SerializeToString()
     assert unfolded(content) == content
+
+
+def columns(kind: str) -> Any:
+    """A product of 8-bit numbers, whose weights have a scale a column."""
+    random = np.random.default_rng(2)
+    arrays = {
+        "codes": random.integers(-64, 65, (WIDTH, COUNT), dtype=np.int8),
+        "scales": random.uniform(0.01, 0.02, COUNT).astype(np.float32),
+        "zeros": np.zeros(COUNT, np.int8),
+        "bias": random.normal(size=COUNT).astype(np.float32),
+    }
+    if kind == "DynamicQuantizeMatMul":
+        nodes = [("x", "codes", "scales", "zeros", "bias")]
+    else:
+        nodes = [("q", "codes", "step", "scales", "zero", "zeros", "bias")]
+    made = [onnx.helper.make_node(kind, nodes[0], ["z"], name="product", domain="com.microsoft")]
+    if kind != "DynamicQuantizeMatMul":
+        made.insert(0, onnx.helper.make_node("DynamicQuantizeLinear", ["x"], ["q", "step", "zero"], name="codes of x"))
+    graph = onnx.helper.make_graph(
+        made,
+        "small",
+        [onnx.helper.make_tensor_value_info("x", 1, [None, WIDTH])],
+        [onnx.helper.make_tensor_value_info("z", 1, [None, COUNT])],
+        [onnx.numpy_helper.from_array(array, name) for name, array in arrays.items()],
+    )
+    opsets = [onnx.helper.make_opsetid("", 18), onnx.helper.make_opsetid("com.microsoft", 1)]
+    return onnx.helper.make_model(graph, opset_imports=opsets, ir_version=8), arrays
+
+
+@pytest.mark.parametrize("kind", ["DynamicQuantizeMatMul", "MatMulIntegerToFloat"])
+def test_exact_files_round_no_activations(kind: str) -> None:
+    made, arrays = columns(kind)
+    content = made.SerializeToString()
+    assert unfolded(content) == content
+    exact = unfolded(content, exact=True)
+    assert kind not in {node.op_type for node in onnx.load_model_from_string(exact).graph.node}
+    given = np.random.default_rng(3).normal(size=(5, WIDTH)).astype(np.float32)
+    wanted = given @ (arrays["codes"].astype(np.float64) * arrays["scales"]) + arrays["bias"]
+    np.testing.assert_allclose(answer(exact, given), wanted, atol=1e-4)
+    assert np.abs(answer(content, given) - wanted).max() > 1e-3

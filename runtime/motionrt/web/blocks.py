@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 from motionrt.models.protobuf import message, number, text
 
@@ -20,37 +21,66 @@ _FLOAT, _INT64 = 1, 7
 _ZERO = "blocks/zero"
 
 
-def unfolded(model: bytes) -> bytes:
-    """An ONNX model without ``MatMulNBits`` of 8 bits; others, and all else, stay byte by byte."""
-    return b"".join(
-        message(_GRAPH, _graph(content)) if field == _GRAPH else raw for field, content, raw in _fields(model)
-    )
+def unfolded(model: bytes, *, exact: bool = False) -> bytes:
+    """An ONNX model without ``MatMulNBits`` of 8 bits; others, and all else, stay byte by byte.
+
+    ``exact`` also decodes the weights of products of 8-bit numbers, so that activations are float32: nothing is rounded
+    in runs any more, and where two processors differ in the last digit, results do.
+    """
+    fields = _fields(model)
+    parts = (message(_GRAPH, _graph(content, exact)) if field == _GRAPH else raw for field, content, raw in fields)
+    return b"".join(parts)
 
 
-def _graph(graph: bytes) -> list[bytes]:
-    parts, constants = [], [_tensor(_ZERO, _FLOAT, (), struct.pack("<f", 128))]
+@dataclass(frozen=True)
+class _Node:
+    """A node: its kind, its name, the names of what it takes and gives, and its attributes as they are stored."""
+
+    kind: str
+    name: str
+    inputs: list[str]
+    output: str
+    attributes: list[bytes]
+
+    @classmethod
+    def read(cls, content: bytes) -> _Node:
+        told: dict[int, list[bytes]] = {1: [], 3: [b""], 5: []}
+        for field, value, _ in _fields(content):
+            told.setdefault(field, []).append(value)
+        inputs, (output, *_) = ([name.decode() for name in told[field]] for field in (1, 2))
+        return cls(told[4][0].decode(), told[3][-1].decode() + "/", inputs, output, told[5])
+
+
+def _graph(graph: bytes, exact: bool) -> list[bytes]:
+    parts: list[bytes] = []
+    constants: list[list[bytes]] = []
+    floats: dict[str, str] = {}  # names of quantised activations -> what they were made of
+    replaced = False
     for field, content, raw in _fields(graph):
-        nodes = _node(content, constants) if field == _NODE else None
+        nodes = None
+        if field == _NODE:
+            node = _Node.read(content)
+            if node.kind == "DynamicQuantizeLinear":
+                floats[node.output] = node.inputs[0]
+            if node.kind == "MatMulNBits":
+                nodes = _blocks(node, constants)
+            elif exact:
+                nodes = _columns(node, floats)
+        replaced = replaced or nodes is not None
         parts += [raw] if nodes is None else [message(_NODE, node) for node in nodes]
-    return [*parts, *(message(_INITIALIZER, constant) for constant in constants)] if len(constants) > 1 else parts
+    return [*parts, *(message(_INITIALIZER, constant) for constant in constants)] if replaced else parts
 
 
-def _node(node: bytes, constants: list[list[bytes]]) -> list[list[bytes]] | None:
-    """The operators in place of a node, and what they need among ``constants``; None where it stays."""
-    told: dict[int, list[bytes]] = {}
-    for field, content, _ in _fields(node):
-        told.setdefault(field, []).append(content)
-    if told[4] != [b"MatMulNBits"]:
-        return None
-    values = dict(map(_attribute, told[5]))
+def _blocks(node: _Node, constants: list[list[bytes]]) -> list[list[bytes]] | None:
+    """The operators in place of a product by blocks, whose shapes go to ``constants``; None where it stays."""
+    values = dict(map(_attribute, node.attributes))
     width, count, size = (values[key] for key in ("K", "N", "block_size"))
-    given = [name.decode() for name in told[1]] + [""] * 6
-    activations, codes, scales, zeros, order, bias = given[:6]
+    activations, codes, scales, zeros, order, bias = (node.inputs + [""] * 6)[:6]
     if values["bits"] != 8 or width % size or zeros or order:
         return None
-    name, out = told[3][0].decode() + "/", told[2][0].decode()
-    blocks = width // size
-    constants += [_shape(f"{name}blocks", count, blocks, 1), _shape(f"{name}whole", count, width)]
+    name = node.name
+    constants += [] if constants else [_tensor(_ZERO, _FLOAT, (), struct.pack("<f", 128))]
+    constants += [_shape(f"{name}blocks", count, width // size, 1), _shape(f"{name}whole", count, width)]
     return [
         _operator("Cast", [codes], f"{name}codes", _whole("to", _FLOAT)),
         _operator("Sub", [f"{name}codes", _ZERO], f"{name}numbers"),
@@ -58,9 +88,35 @@ def _node(node: bytes, constants: list[list[bytes]]) -> list[list[bytes]] | None
         _operator("Mul", [f"{name}numbers", f"{name}scales"], f"{name}decoded"),
         _operator("Reshape", [f"{name}decoded", f"{name}whole"], f"{name}rows"),
         _operator("Transpose", [f"{name}rows"], f"{name}weights"),
-        _operator("MatMul", [activations, f"{name}weights"], f"{name}product" if bias else out),
-        *([_operator("Add", [f"{name}product", bias], out)] if bias else []),
+        *_product(name, activations, bias, node.output),
     ]
+
+
+def _columns(node: _Node, floats: dict[str, str]) -> list[list[bytes]] | None:
+    """The operators in place of a product of 8-bit numbers with a scale a column; None for anything else."""
+    if node.kind == "DynamicQuantizeMatMul":
+        activations, codes, scales, zeros, bias = (node.inputs + [""] * 2)[:5]
+    elif node.kind == "MatMulIntegerToFloat" and node.inputs[0] in floats:
+        _, codes, _, scales, _, zeros, bias = (node.inputs + [""] * 3)[:7]
+        activations = floats[node.inputs[0]]
+    else:
+        return None
+    name = node.name
+    centred = [
+        _operator("Cast", [zeros], f"{name}zeros", _whole("to", _FLOAT)),
+        _operator("Sub", [f"{name}codes", f"{name}zeros"], f"{name}numbers"),
+    ]
+    return [
+        _operator("Cast", [codes], f"{name}codes", _whole("to", _FLOAT)),
+        *(centred if zeros else []),
+        _operator("Mul", [f"{name}numbers" if zeros else f"{name}codes", scales], f"{name}weights"),
+        *_product(name, activations, bias, node.output),
+    ]
+
+
+def _product(name: str, activations: str, bias: str, output: str) -> list[list[bytes]]:
+    product = _operator("MatMul", [activations, f"{name}weights"], f"{name}product" if bias else output)
+    return [product, _operator("Add", [f"{name}product", bias], output)] if bias else [product]
 
 
 def _operator(kind: str, inputs: list[str], output: str, *attributes: bytes) -> list[bytes]:

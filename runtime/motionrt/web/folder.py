@@ -31,6 +31,7 @@ def write_folder(
     models: str | Path | None = None,
     pages: str | Path | None = None,
     only: Sequence[str] = MODELS,
+    exact: bool = False,
 ) -> Path:
     """Write everything that a page needs, below ``out``; what is there under the same names is replaced.
 
@@ -40,6 +41,8 @@ def write_folder(
         models: manifest or folder of the models, by default the shipped ones.
         pages: a folder of built pages, copied beside; None leaves pages out.
         only: which models.
+        exact: files whose activations are float32. Walks and motions are then those that another machine makes of the
+            same files, within 1e-3; quantised ones drift apart after some frames, and take two thirds of the time.
 
     Returns:
         ``out`` as a path.
@@ -55,7 +58,7 @@ def write_folder(
         raise InvalidInputError(f"{pages} holds no index.html; build the pages: cd integrations/web && npm run demo")
     try:
         (folder / "models").mkdir(parents=True, exist_ok=True)
-        entries = {name: _model(manifest, name, folder) for name in only}
+        entries = {name: _model(manifest, name, folder, exact) for name in only}
         _tokenizer(manifest, folder)
         for name, gallery in galleries.items():
             _gallery(gallery, folder / "galleries" / name)
@@ -67,9 +70,9 @@ def write_folder(
     return folder
 
 
-def _model(manifest: Manifest, name: str, folder: Path) -> dict[str, Any]:
+def _model(manifest: Manifest, name: str, folder: Path, exact: bool) -> dict[str, Any]:
     variant = manifest.variant(name)
-    content = unfolded(verified(manifest, variant))
+    content = unfolded(verified(manifest, variant), exact=exact)
     file = f"models/{Path(variant.file).name}"
     (folder / file).write_bytes(content)
     return {"file": file, "bytes": len(content), "sha256": hashlib.sha256(content).hexdigest()}

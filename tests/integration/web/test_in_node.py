@@ -18,6 +18,7 @@ from motionrt.retrieval import EMBEDDING_ONLY
 from motionrt.retrieval.captions import read_captions
 from motionrt.services.search import DEFAULT_CAPTIONS
 from motionrt.text import parse_query, slots_of_text, targets_of_text
+from motionrt.web import write_folder
 
 from .conftest import PACKAGE, Ask
 
@@ -93,6 +94,23 @@ def test_a_step_of_a_walk_is_that_of_python(ask: Ask) -> None:
     wanted = [crowd.step(np.array([goal]), 1.2)[0] for _ in range(8)]
     found = ask("walk", goals=[{"from": 0, "goal": goal}], frames=8, speed=1.2)
     np.testing.assert_allclose(found, wanted, atol=1e-3)  # further on, quantised files of two machines drift apart
+
+
+def test_600_frames_of_exact_files_are_those_of_python(ask: Ask, tmp_path: Path) -> None:
+    import onnxruntime
+
+    site = write_folder(tmp_path / "exact", {}, only=["walknet"], exact=True)
+    session = onnxruntime.InferenceSession(site / "models" / "walknet.int8.onnx", providers=["CPUExecutionProvider"])
+    none = {info.name: np.zeros((1, 8), np.float32) for info in session.get_inputs() if info.name == "wish"}
+    crowd = Crowd(
+        lambda frames, speed: session.run(["next"], {"frames": frames, "speed": np.float32(speed), **none})[0],
+        history_of(stride())[None].astype(np.float64).round(6),
+    )
+    goals = [{"from": 0, "goal": [2.0, 6.0, 0.4]}, {"from": 200, "goal": [-3.0, 2.0, -2.0]}]
+    goals += [{"from": 400, "goal": [1.0, -4.0, 1.5]}]
+    wanted = [crowd.step(np.array([goals[f // 200]["goal"]]), 1.2)[0] for f in range(600)]
+    found = ask("walk", site=site, goals=goals, frames=600, speed=1.2)
+    np.testing.assert_allclose(found, wanted, atol=1e-3)
 
 
 def test_a_crowd_steps_as_in_python(ask: Ask) -> None:
