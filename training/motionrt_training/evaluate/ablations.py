@@ -25,7 +25,7 @@ from motionrt_training.evaluate import generation
 from motionrt_training.evaluate.tables import markdown
 
 Run = Callable[[list[str]], None]
-SCORES = ("t2m_R1", "t2m_R3", "t2m_R10", "t2m_MedR", "m2t_R1", "m2t_R10")
+SCORES = ("t2m_R1", "t2m_R3", "t2m_R10", "t2m_MedR", "m2t_R1", "m2t_R10", "side", "path")
 
 
 @dataclass(frozen=True)
@@ -50,6 +50,7 @@ def _values(option: str, *values: object, paper: object) -> tuple[Row, ...]:
     return tuple(Row(f"{v} (the paper's)" if v == paper else f"{v}", f"{option} {v}") for v in values)
 
 
+OURS = "--patch 8 --batch 40 --no-rotations --contrastive-weight 0.5 --token-dropout 0.1"
 SINGLES = "--captions 0 --no-pairs"
 LABELS = "--captions 0"
 TABLES: Mapping[str, Table] = {
@@ -72,6 +73,15 @@ TABLES: Mapping[str, Table] = {
     )),
     "batch": Table("TMR, sweep of the batch", "tmr", _values("--batch", 16, 32, 64, 128, paper=32)),
     "width": Table("TMR, sweep of the latent", "tmr", _values("--d", 64, 128, 256, 512, paper=256)),
+    "choices": Table("Search, what is not in the papers", "tmr", (
+        Row("as shipped, small", OURS),
+        Row("no mirror twins in the batch", f"{OURS} --no-twins"),
+        Row("twins count like any negative", f"{OURS} --hard 1"),
+        Row("no straightened clips", f"{OURS} --no-straightened"),
+        Row("no heads for attributes", f"{OURS} --slots 0"),
+        Row("no texts of what was measured", f"{OURS} --spoken 0"),
+        Row("no crops, no change of speed", f"{OURS} --crop 1 --speed 0"),
+    )),
     "inputs": Table("SINC, Table 2", "temos", (
         Row("single actions", f"{SINGLES} --synthetic 0"),
         Row("single actions, composed", f"{SINGLES} --synthetic 0", "compose"),
