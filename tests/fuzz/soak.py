@@ -1,6 +1,6 @@
 """The same calls for a long time, and from many threads: memory stays flat, answers stay equal.
 
-    python tests/fuzz/soak.py --calls 100000      (``--minutes`` ends it earlier)
+    python tests/fuzz/soak.py --calls 100000 [VERB ...]      (``--minutes`` ends it earlier)
 
 Prints MiB of memory before and after by verb, and exits with 1 if any grew by more than 2 MiB or a thread's answer
 differed from the one that was found alone.
@@ -103,6 +103,7 @@ def differing(made: dict[str, Verb], threads: int, rounds: int) -> list[str]:
 def main() -> int:
     """The command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("verbs", nargs="*", metavar="VERB", help="default: all")
     parser.add_argument("--calls", type=int, default=100_000)
     parser.add_argument("--minutes", type=float)
     parser.add_argument("--threads", type=int, default=16)
@@ -111,8 +112,9 @@ def main() -> int:
         made = verbs(Path(folder))
         bad = differing(made, given.threads, 20)
         print(f"{given.threads} threads x {len(made)} verbs x 20: {len(bad)} differ {bad}")
-        for name, verb in made.items():
-            until = None if given.minutes is None else time.monotonic() + 60 * given.minutes / len(made)
+        chosen = {name: verb for name, verb in made.items() if not given.verbs or name in given.verbs}
+        for name, verb in chosen.items():
+            until = None if given.minutes is None else time.monotonic() + 60 * given.minutes / len(chosen)
             done, grown = growth(verb, given.calls, until)
             print(f"{name:10s} {done:8d} calls  {grown:+.2f} MiB", flush=True)
             bad += [name] if grown > GROWTH_MB else []

@@ -6,6 +6,7 @@ The motion goes to Blender as a GLB. Nothing of the names of files becomes part 
 from __future__ import annotations
 
 import os
+import re
 import shutil
 import subprocess
 import tempfile
@@ -22,6 +23,7 @@ PROGRAM = "MOTIONRT_BLENDER"
 """Environment variable that names the program, if it is not ``blender``."""
 
 _PATIENCE_S = 300
+_ERROR = re.compile(r"[\w.]*(Error|Exception): ")
 _SCRIPT = """
 import sys, bpy, numpy
 source, target, fps = sys.argv[sys.argv.index("--") + 1:]
@@ -85,8 +87,16 @@ def _run(path: Path, arguments: list[str]) -> None:
     except (OSError, subprocess.TimeoutExpired) as error:
         raise InvalidInputError(f"cannot write {path}: Blender ({program}) does not end well: {error}") from error
     if done.returncode or not Path(arguments[1]).is_file():
-        said = (done.stderr or done.stdout).decode(errors="replace").strip().splitlines()
-        raise InvalidInputError(f"cannot write {path}: Blender ({program}) says: {said[-1] if said else 'nothing'}")
+        said = _reason((done.stdout + done.stderr).decode(errors="replace"))
+        raise InvalidInputError(f"cannot write {path}: Blender ({program}) says: {said}")
+
+
+def _reason(said: str) -> str:
+    """The line of a traceback that names the error, or the last one."""
+    lines = said.strip().splitlines() or ["nothing"]
+    errors = [line for line in lines if _ERROR.match(line)]
+    hint = "; install NumPy for it (Debian: python3-numpy)" if "No module named 'numpy'" in said else ""
+    return (errors or lines)[-1] + hint
 
 
 def _environment(program: str) -> dict[str, str]:

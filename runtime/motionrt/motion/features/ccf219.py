@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from motionrt.motion.batches import by_batches
 from motionrt.motion.features.checks import checked_features
 from motionrt.motion.motion import Motion
 from motionrt.motion.rotations import project_to_so3
@@ -21,7 +22,11 @@ ROOT = slice(216, 219)
 
 def encode(motion: Motion) -> FloatArray:
     """``(F, 219)`` float32 features of a ``smpl24`` motion, at the motion's own frame rate."""
-    return np.concatenate([motion.rotations.reshape(motion.frames, -1), motion.root], axis=1)
+    return by_batches(_rows, motion.rotations, motion.root)
+
+
+def _rows(turns: FloatArray, root: FloatArray) -> FloatArray:
+    return np.concatenate([turns.reshape(len(turns), -1), root], axis=1)
 
 
 def decode(features: FloatArray, fps: float = FPS) -> Motion:

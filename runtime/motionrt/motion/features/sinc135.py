@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from motionrt.motion.batches import by_batches
 from motionrt.motion.features.checks import checked_features
 from motionrt.motion.motion import Motion
 from motionrt.motion.rotations import matrix_from_6d, matrix_to_6d
@@ -22,8 +23,12 @@ HEIGHT = slice(134, 135)
 
 def encode(motion: Motion) -> FloatArray:
     """``(F, 135)`` float32 features of a ``smpl24`` motion, at the motion's own frame rate."""
-    rotations = matrix_to_6d(motion.rotations[:, :SMPL22_JOINTS]).reshape(motion.frames, -1)
-    return np.concatenate([rotations, motion.root[:, [0, 2]], motion.root[:, 1:2]], axis=1).astype(np.float32)
+    return by_batches(_rows, motion.rotations, motion.root)
+
+
+def _rows(turns: FloatArray, root: FloatArray) -> FloatArray:
+    rotations = matrix_to_6d(turns[:, :SMPL22_JOINTS]).reshape(len(turns), -1)
+    return np.concatenate([rotations, root[:, [0, 2]], root[:, 1:2]], axis=1).astype(np.float32)
 
 
 def decode(features: FloatArray, fps: float = FPS) -> Motion:
