@@ -64,7 +64,9 @@ def encode_positions(joints: Array, bone_lengths: Array = skeleton.BONE_LENGTHS)
     """
     given = checked_joints(joints)[:, :SMPL22_JOINTS]
     root = given[:, 0] * skeleton.scale_to_target(given, bone_lengths)
-    return _features(by_batches(_pointing, given), root, bone_lengths)
+    pointing = by_batches(_pointing, given)
+    del given  # a long motion is not held in more forms than are needed
+    return _features(pointing, root, bone_lengths)
 
 
 def positions(features: FloatArray) -> FloatArray:
@@ -117,6 +119,7 @@ def _features(pointing: Array, root: Array, bone_lengths: Array = skeleton.BONE_
     """Features of bones ``(F, 21, 3)`` that point so, on a root's path ``(F, 3)``, placed as he does."""
     longer = by_batches(partial(skeleton.with_lengths, bone_lengths=bone_lengths), pointing, root)
     joints = skeleton.placed(longer)
+    del longer
     yaw = skeleton.headings(joints)
     to_heading = by_batches(partial(axis_rotation, "Y"), -yaw)
     turns = wrapped(-_forward_difference(yaw)) / 2
