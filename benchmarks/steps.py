@@ -1,6 +1,7 @@
 """Short moves and streams of random goals: are feet lifted, do they slide, is every goal reached, does nothing leap.
 
     python benchmarks/steps.py --tasks 100 --streams 500 --frames 1000
+    python benchmarks/steps.py --tasks 0 --streams 1 --frames 100000
 
 Prints two tables: 100 random moves of 0.1 to 2 m with any heading, backward and sideways ways of 3 m, and streams whose
 goals change at random moments, near and far. A stream's goal counts as due once distance / 1.2 m/s + 3 s have passed.
@@ -10,6 +11,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -83,15 +85,57 @@ def fastest(motion: Motion) -> tuple[float, float]:
     return float(speed), float(turn)
 
 
+@dataclass(frozen=True)
+class Row:
+    """One stream: m/s and degrees/s at their worst, foot skate in cm/frame, which of its goals were in time."""
+
+    speed: float
+    turn: float
+    skate: float
+    reached: list[bool]
+
+
+def measured(motion: Motion, reached: list[bool]) -> Row:
+    return Row(*fastest(motion), foot_skate(motion.positions()), reached)
+
+
+def told(rows: list[Row], frames: int) -> str:
+    """What streams add up to."""
+    due, skates = [each for row in rows for each in row.reached], [row.skate for row in rows]
+    return (
+        f"{len(rows)} streams of {frames} frames: at most {max(row.speed for row in rows):.2f} m/s and "
+        f"{max(row.turn for row in rows):.0f} degrees/s; foot skate {np.mean(skates):.3f} (worst {max(skates):.3f}) "
+        f"cm/frame; {sum(due)} of {len(due)} goals reached in time"
+    )
+
+
+def streams(runtime: Runtime, count: int, frames: int, first: int = 0) -> None:
+    """Measure and tell, every ten streams."""
+    rows = list[Row]()
+    for seed in range(first, first + count):
+        rows.append(measured(*stream(runtime, frames, seed)))
+        if len(rows) % 10 == 0 or len(rows) == count:
+            print(told(rows, frames), flush=True)
+
+
 def main() -> None:
     """Both tables."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--tasks", type=int, default=100)
     parser.add_argument("--streams", type=int, default=500)
     parser.add_argument("--frames", type=int, default=1000)
+    parser.add_argument("--first", type=int, default=0, help="number of the first stream")
     args = parser.parse_args()
     runtime = Runtime(threads=1)
-    short = [(motion, goal, foot_skate(motion.positions())) for motion, goal in tasks(runtime, args.tasks)]
+    if args.tasks:
+        moves(runtime, args.tasks)
+    if args.streams:
+        streams(runtime, args.streams, args.frames, args.first)
+
+
+def moves(runtime: Runtime, count: int) -> None:
+    """Short moves, backward and sideways ways."""
+    short = [(motion, goal, foot_skate(motion.positions())) for motion, goal in tasks(runtime, count)]
     off = [float(np.hypot(goal.x - m.root[-1, 0], goal.z - m.root[-1, 2])) for m, goal, _ in short]
     turned = [float(abs(wrapped(goal.heading - heading(m)[-1]))) for m, goal, _ in short]
     print(f"{len(short)} short moves: lifted {100 * np.mean([lifted(m) for m, *_ in short]):.0f} % of displaced feet, ")
@@ -106,14 +150,6 @@ def main() -> None:
         way = aside(runtime, velocity)
         print(f"3 m {name}: {way.duration - 2:.1f} s, foot skate {foot_skate(way.positions()):.3f} cm/frame, ")
         print(f"  turned by at most {np.degrees(np.abs(heading(way)).max()):.1f} degrees")
-    rows = [
-        (*fastest(m), foot_skate(m.positions()), r)
-        for m, r in (stream(runtime, args.frames, s) for s in range(args.streams))
-    ]
-    due = [each for *_, reached in rows for each in reached]
-    print(f"{len(rows)} streams of {args.frames} frames: at most {max(r[0] for r in rows):.2f} m/s and ")
-    print(f"  {max(r[1] for r in rows):.0f} degrees/s; foot skate {np.mean([r[2] for r in rows]):.3f} ")
-    print(f"  (worst {max(r[2] for r in rows):.3f}) cm/frame; {sum(due)} of {len(due)} goals reached in time")
 
 
 if __name__ == "__main__":

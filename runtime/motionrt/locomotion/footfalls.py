@@ -15,9 +15,9 @@ import numpy.typing as npt
 
 STRIDE, CLOSING = 0.45, 0.42  # metres of a step past the other foot, and of a pair of steps that open and close
 SHORTEST = 0.12  # metres of a step, however slow the pace
-TURN, PAST_TURN = 1.05, 0.35  # radians that a pair turns, and a step past the other foot
+TURN, PAST_TURN = 1.58, 0.35  # radians that a pair turns, and a step past the other foot
 FPS = 30.0
-SWING = 11  # frames that a foot is in the air
+SWING, QUICK = 11, 10  # frames that a foot is in the air, and in steps that open and close
 PAUSE = 1  # frames between steps with both feet down
 LEAD, SETTLE = 4, 7  # frames before the first step and behind the last
 EVEN = 1e-3  # metres to a side that are none
@@ -66,22 +66,24 @@ def plan_steps(
         Steps in order of time; none where nothing is displaced. The motion lasts :func:`duration` frames.
     """
     far, step_s = float(np.hypot(ahead, left)), (SWING + PAUSE) / FPS
-    stride, closing = (min(most, max(SHORTEST, pace * s)) for most, s in ((STRIDE, step_s), (CLOSING, 2 * step_s)))
+    stride, closing = (
+        min(most, max(SHORTEST, pace * s)) for most, s in ((STRIDE, step_s), (CLOSING, 2 * (QUICK + PAUSE) / FPS))
+    )
     past = abs(left) <= NARROW * abs(ahead) and abs(turn) <= PAST_TURN * max(1, ceil(far / stride))
     lead = LEAD if first is None else 1
     first = _first(left, turn, displaced) if first is None else first
     if past and far > stride / 4:
         count = ceil(far / stride)
-        shares = [min(1.0, (k + 1) / count) for k in range(count + 1)]
+        shares, swing = [min(1.0, (k + 1) / count) for k in range(count + 1)], SWING
     else:
         pairs = max(1, ceil(far / closing), ceil(abs(turn) / TURN))
-        shares = [(k // 2 + 1) / pairs for k in range(2 * pairs)]
+        shares, swing = [(k // 2 + 1) / pairs for k in range(2 * pairs)], QUICK
     feet = [(first + k) % 2 for k in range(len(shares))]
     kept = [(foot, share) for foot, share in zip(feet, shares, strict=True) if displaced[foot] or far + abs(turn) > 0.1]
     out: list[Footfall] = []
     for foot, share in kept:
         start = out[-1].end + PAUSE if out else lead
-        out.append(Footfall(foot, start, start + SWING + (0 if out else longer), share))
+        out.append(Footfall(foot, start, start + swing + (0 if out else longer), share))
     return out
 
 

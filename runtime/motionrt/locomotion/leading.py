@@ -28,6 +28,7 @@ ASIDE = 0.7  # radians between way and facing: more is stepped
 AHEAD = 1.0  # metres from a walker to the place that it is led to
 FREE, HELP, MOST = 0.25, 0.05, 0.03  # radians aside that need no help; radians a frame for each beyond, and the most
 SLOWEST = 0.6  # of the speed, in the sharpest turns
+HURRIES, MOST_HURRIED = 1.0, 1.15  # m/s more that are asked for each that is missing, and the most, as a factor
 STANDS = 0.05  # m/s: less is standing
 WALKS_FROM = 0.6  # m/s: what is slower is stepped
 
@@ -94,6 +95,11 @@ def _aside(goals: Array, frames: Array) -> npt.NDArray[np.float64]:
     """``(B,)`` radians between where walkers look and where their goals are."""
     way = goals[:, :2] - frames[:, [216, 218]]
     return np.asarray(wrapped(np.arctan2(way[:, 0], way[:, 1]) - np.arctan2(frames[:, 2], frames[:, 8])))
+
+
+def asked_for(wanted: float, now: float) -> float:
+    """The speed to ask a walker for who goes ``now`` and shall go ``wanted``, m/s: who is slow is asked for more."""
+    return min(MOST_HURRIED * wanted, wanted + HURRIES * max(0.0, wanted - now))
 
 
 def towards(goal: Goal, place: Place, facing: float, now: float, pace: float) -> Lead | None:

@@ -57,7 +57,8 @@ class Steps:
 
     Attributes:
         motion: frames at 30 fps behind the seed; the last one is the target.
-        landings: numbers of the frames in which both feet stand, where something else may begin.
+        landings: numbers of the frames after which both feet stand and something else may begin; the last one is where
+            the body rests.
     """
 
     motion: Motion
@@ -92,7 +93,7 @@ def step_to(seed: Motion, target: Motion, pace: float = np.inf) -> Steps:
     rotations, root = _with_legs(upper, root, feet, turns, _ahead(start, end, feet, body))
     rotations[-1], root[-1] = target.rotations[0], target.root[0]
     made = Motion(rotations.astype(np.float32), root.astype(np.float32), FPS)
-    return Steps(made, (*(step.end for step in steps[:-1]), frames))
+    return Steps(made, (*(step.end for step in steps), frames))
 
 
 def set_off(seed: Motion, standing: Motion, way: float) -> Motion:

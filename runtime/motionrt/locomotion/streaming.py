@@ -20,7 +20,7 @@ from motionrt.locomotion.character import MOVING, SEED
 from motionrt.locomotion.character_models import CharacterModels
 from motionrt.locomotion.crowd import FPS, SPEED, Crowd, at_30_fps, takes_wishes, to_motion
 from motionrt.locomotion.goal_frame import Goal, uncanonicalise
-from motionrt.locomotion.leading import ASIDE, STANDS, WALKS_FROM, Lead, by_stick, helped, towards
+from motionrt.locomotion.leading import ASIDE, STANDS, THERE, WALKS_FROM, Lead, asked_for, by_stick, helped, towards
 from motionrt.locomotion.path_following import Pace
 from motionrt.locomotion.stepping import set_off, step_to
 from motionrt.locomotion.transitions import speed_of
@@ -35,10 +35,13 @@ from motionrt.untrusted.arguments import check_flags, checked_whole
 STEPPED = 2.2  # metres that are stepped, in any direction, instead of walked
 ON = 6.0  # metres that are stepped on sideways or back while a stick says so
 STOPS = 0.35  # seconds of its speed that a walk goes on until it stands
-LOOKS = 0.9  # radians between facing and way: more is turned to by steps before a walk
+LOOKS, LEFT = 0.9, 0.85  # radians between facing and way: more is turned to by steps before a walk, up to what is left
+SWAYS = 2  # frames behind the last landing of such a turn after which the walk begins
 CLOSE, CLOSE_TURN = 0.02, 0.06  # metres and radians: somebody who stands this near to a goal stays
 QUICKEST, FASTEST_TURN = 6.0, 400.0  # m/s and degrees/s between frames: more is no walk
 LOWEST, HIGHEST = 0.7, 1.1  # of the standing height: lower or higher is no walk
+GRACE_S, ENDS_S = 3.0, 1.9  # seconds beside the way that a goal may take, and those of them for the last steps
+LATE = 1.25  # of the speed: who turned for long walks this much faster at most
 IDLE_S = 2.0  # seconds of standing that are made at once
 
 Frames = npt.NDArray[np.float64]
@@ -67,11 +70,13 @@ class Stroller:
         self._breaks: list[int] = []  # how many of the frames that are ready may be left when something else begins
         self._walks = speed_of(before) > MOVING
         self._seed = checked_whole(seed, "seed", 0)
+        self._due_s = self._takes()
 
     def aim(self, goal: Goal) -> None:
         """A new goal, from the next frame on, or from where the foot that is in the air lands."""
         if goal != self.goal or self.stick is not None:
             self.goal, self.stick = goal, None
+            self._due_s = self._takes()
             self._break_off()
 
     def steer(self, wish: Wish) -> None:
@@ -85,6 +90,7 @@ class Stroller:
         if not self._ready:
             self._ready = list(self._next())
         frame = self._ready.pop(0)
+        self._due_s -= 1 / FPS
         self._last = np.concatenate([self._last[1:], frame[None]])
         return to_motion(frame[None])
 
@@ -107,14 +113,24 @@ class Stroller:
         wishes = np.array([lead.wish().row()]) if takes_wishes(self.models.walk) and lead.faces_aside else None
         aim = np.array([lead.goal(place_of(seen)).row()])
         crowd = Crowd(self.models.walk, helped(aim, self._last[None, -HISTORY:]))
-        made = crowd.step(aim, lead.speed, wishes)
+        made = crowd.step(aim, asked_for(lead.speed, speed_of(seen)), wishes)
         return made if self._is_walk(made[0]) else self._step(seen, Goal(*over_feet(seen), facing_of(seen)))
 
     def _lead(self, seen: Motion) -> Lead | None:
         facing, now = facing_of(seen), speed_of(seen, 0.2)
         if self.stick is None:
-            return towards(self.goal, place_of(seen), facing, now, self.speed)
+            return towards(self.goal, place_of(seen), facing, now, self._pace(seen))
         return by_stick(self.stick.velocity or (0.0, 0.0), self.stick.facing, facing, now)
+
+    def _takes(self) -> float:
+        """Seconds in which the goal shall be reached."""
+        return apart(place_of(self._seen()), (self.goal.x, self.goal.z)) / self.speed + GRACE_S
+
+    def _pace(self, seen: Motion) -> float:
+        """The speed, or a little more for who is late."""
+        left = apart(place_of(seen), (self.goal.x, self.goal.z)) - THERE
+        needed = left / max(self._due_s - ENDS_S, 0.1)
+        return float(np.clip(needed, self.speed, LATE * self.speed))
 
     def _end_of_walk(self, seen: Motion) -> Frames:
         """Steps to the goal if that is near, else to a stand a little ahead."""
@@ -153,9 +169,10 @@ class Stroller:
         return self._set_off(seen, way)
 
     def _set_off(self, seen: Motion, way: float) -> Frames:
-        """A step along the way; who looks elsewhere turns first."""
-        if abs(wrapped(way - facing_of(seen))) > LOOKS:
-            return self._step(seen, Goal(*over_feet(seen), way))
+        """A step along the way; who looks elsewhere turns first, all but what the step turns."""
+        turn = float(wrapped(way - facing_of(seen)))
+        if abs(turn) > LOOKS:
+            return self._cut(self._step(seen, Goal(*over_feet(seen), way - float(np.copysign(LEFT, turn)))))
         self._walks = True
         self._breaks = [0]
         return _rows(set_off(seen, self.models.standing, way))
@@ -165,6 +182,12 @@ class Stroller:
         steps = step_to(seen, uncanonicalise(self.models.standing, goal), pace)
         self._breaks = [steps.motion.frames - landing for landing in steps.landings]
         return _rows(steps.motion)
+
+    def _cut(self, rows: Frames) -> Frames:
+        """Steps without the rest behind the last landing."""
+        rest = max(0, self._breaks[-2] - SWAYS) if len(self._breaks) > 1 else 0
+        self._breaks = [max(0, left - rest) for left in self._breaks]
+        return rows[: len(rows) - rest]
 
     def _pause(self, seen: Motion) -> Frames:
         self._seed += 1

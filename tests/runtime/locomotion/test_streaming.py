@@ -84,17 +84,32 @@ def test_a_stick_that_nobody_can_follow_is_refused(velocity: tuple[float, float]
 
 
 def test_a_goal_sent_while_it_stands_makes_it_set_off() -> None:
-    walker = stream(FakeCharacterModels(), Goal(0, 0), Goal(0, 0))
+    walker = stream(FakeCharacterModels(turns_gently), Goal(0, 0), Goal(0, 0))
     np.testing.assert_allclose(roots(list(islice(walker, 90))), 0, atol=0.02)
     walker.send(Goal(-6, 0, 0))
     assert roots(list(islice(walker, 400)))[-1] == pytest.approx([-6, 0], abs=0.02)
 
 
 def test_a_goal_that_lies_behind_is_turned_to_first() -> None:
-    seen = frames(Goal(0, -8), 600)
+    seen = list(islice(stream(FakeCharacterModels(turns_gently), Goal(0, 0), Goal(0, -8)), 600))
     place = roots(seen)
     assert np.abs(place[:60]).max() < 0.3  # turns on the spot
     np.testing.assert_allclose(place[-1], [0, -8], atol=0.02)
+
+
+@pytest.mark.parametrize("goal", [Goal(0, -2.6, 0.0), Goal(1.0, -4.5, 0.5), Goal(-5.0, 0.0, 1.5), Goal(0, 8.0, np.pi)])
+def test_a_goal_that_stands_still_is_reached_in_its_distance_at_the_speed_and_three_seconds(goal: Goal) -> None:
+    due = np.hypot(goal.x, goal.z) / 1.2 + 3.0
+    seen = list(islice(stream(FakeCharacterModels(turns_gently), Goal(0, 0), goal), int(due * FPS) + 1))
+    assert roots(seen)[-1] == pytest.approx([goal.x, goal.z], abs=0.05)
+
+
+def test_a_turn_before_a_walk_takes_effect_at_its_landings() -> None:
+    walker = stream(FakeCharacterModels(turns_gently), Goal(0, 0), Goal(0, -8))
+    seen = list(islice(walker, 20))
+    seen += [walker.send(Goal(0, 0, 0.0)), *islice(walker, 150)]
+    assert roots(seen)[-1] == pytest.approx([0, 0], abs=0.03)
+    assert abs(wrapped(facing_of(seen[-1]))) < 0.06
 
 
 def test_a_motion_is_gone_on_from() -> None:
