@@ -9,7 +9,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from motionrt.locomotion.actions import Act, Action, Do, Follow, Generate, Stand, Wait, WalkTo
+    from motionrt.locomotion.actions import Act, Action, Do, Follow, Generate, Lie, Stand, Wait, WalkTo
     from motionrt.locomotion.avoidance import around_others
     from motionrt.locomotion.crowd import Crowd
     from motionrt.locomotion.goal_frame import Goal, canonicalise, uncanonicalise
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from motionrt.locomotion.words import SemanticCloud, action_keypoints, load_cloud
 
 _HOMES = {
-    "actions": ("Act", "Action", "Do", "Follow", "Generate", "Stand", "Wait", "WalkTo"),
+    "actions": ("Act", "Action", "Do", "Follow", "Generate", "Lie", "Stand", "Wait", "WalkTo"),
     "avoidance": ("around_others",),
     "goal_frame": ("Goal", "canonicalise", "uncanonicalise"),
     "path_following": ("Pace",),
@@ -51,6 +51,7 @@ __all__ = [
     "Follow",
     "Generate",
     "Goal",
+    "Lie",
     "Pace",
     "Path",
     "Performance",

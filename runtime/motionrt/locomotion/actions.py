@@ -13,6 +13,7 @@ from motionrt.untrusted.arguments import check_kind, real
 from motionrt.untrusted.words import shown
 
 HOLD_S = 2.0  # seconds that a pose is held if nothing else is said
+NEAREST_EDGE, FARTHEST_EDGE = 0.05, 1.5  # metres from where somebody lies to the edge that it sits down on
 
 
 @dataclass(frozen=True)
@@ -108,6 +109,39 @@ class Do:
 
 
 @dataclass(frozen=True)
+class Lie:
+    """Sit down on an edge, lie back, stay there; whatever follows gets up the same way.
+
+    Attributes:
+        at: (x, y, z) metres of the surface where the pelvis shall lie.
+        edge: (x, z) where to sit down first: the edge of the surface beside ``at``.
+        heading: radians from +Z towards +X that the feet point to, seen from the head.
+        hold_s: seconds to lie.
+        name: what to call it in the timeline.
+
+    Raises:
+        InvalidInputError: numbers that are not finite, or an edge more than 1.5 m or less than 5 cm from ``at``.
+    """
+
+    at: tuple[float, float, float]
+    edge: tuple[float, float]
+    heading: float
+    hold_s: float = HOLD_S
+    name: str = "lie down"
+
+    def __post_init__(self) -> None:
+        _check_seconds(self.hold_s, self.name)
+        check_place("where to lie (x, y, z, heading)", self.at, self.heading)
+        check_place("the edge to sit down on (x, z)", self.edge, None)
+        away = math.hypot(self.edge[0] - self.at[0], self.edge[1] - self.at[2])
+        if not NEAREST_EDGE <= away <= FARTHEST_EDGE:
+            raise InvalidInputError(
+                f"the edge is {away:.2f} m from where the pelvis shall lie; give one between {NEAREST_EDGE:g} and "
+                f"{FARTHEST_EDGE:g} m away"
+            )
+
+
+@dataclass(frozen=True)
 class Generate:
     """A motion that is made from a text where the character stands, as in "wave with the right hand".
 
@@ -150,7 +184,7 @@ class Wait:
         _check_seconds(self.seconds, self.name)
 
 
-Action = WalkTo | Follow | Act | Do | Generate | Stand | Wait
+Action = WalkTo | Follow | Act | Lie | Do | Generate | Stand | Wait
 
 
 def _check_seconds(seconds: float, name: str) -> None:

@@ -20,6 +20,7 @@ from motionrt.locomotion.bearings import (
 from motionrt.locomotion.character_models import CharacterModels
 from motionrt.locomotion.crowd import FPS, at_30_fps
 from motionrt.locomotion.goal_frame import Goal, uncanonicalise
+from motionrt.locomotion.lying import lie_back, reversed_in_time
 from motionrt.locomotion.path import Path
 from motionrt.locomotion.path_following import Pace, Progress, walk
 from motionrt.locomotion.performance import Aim, Performance, Segment, performance_of
@@ -28,6 +29,7 @@ from motionrt.locomotion.terrain import Heights, Terrain, raised
 from motionrt.locomotion.transitions import LONGEST, placed, speed_of
 from motionrt.motion import Motion
 from motionrt.motion.rotations import wrapped
+from motionrt.motion.skeleton import FloatArray
 
 SEED = 60  # frames that a transition starts from
 NEAR = 1.6  # metres that a transition covers without a walk before it
@@ -81,6 +83,7 @@ class Character:
         self._parts: list[Motion] = [before]  # on the plane, as all that follows
         self._pose = before[-1:]
         self.moving = speed_of(before) > MOVING
+        self._risen: tuple[Motion, Motion] | None = None  # of somebody who lies: the way up, and the seat
         if isinstance(start, Goal):
             self.hold(SETTLE_S, "start")
 
@@ -164,6 +167,20 @@ class Character:
         self._add("transition", name, self.models.transition(self.tail, pose, held=True), pose, level=level)
         self.moving = False
 
+    def lie(self, seat: Motion, pose: Motion, name: str, level: float) -> None:
+        """From standing before an edge to sitting on it, and back into a pose that lies."""
+        self.into(seat, name, level)
+        back = lie_back(seat, pose)
+        self._add("transition", name, back, pose, level=level)
+        self._pose, self._risen = pose, (reversed_in_time(back, seat), seat)
+
+    def rise(self, name: str) -> None:
+        """Sit up, if it lies: as it lay down, the other way round."""
+        if self._risen is not None:
+            (up, seat), self._risen = self._risen, None
+            self._add("transition", name, up, seat, level=self._level)
+            self._pose = seat
+
     def show(self, motion: Motion, name: str) -> None:
         """A motion that begins where the character stands, facing as it does, and a stand behind it."""
         if self.moving:
@@ -193,10 +210,13 @@ class Character:
             frames += self._parts[first].frames
         return joined(self._parts[first:])[-SEED:]
 
-    def performance(self, *, foot_lock: bool) -> Performance:
-        """All that it did since the start."""
+    def performance(self, *, foot_lock: bool, surfaces: FloatArray | None = None) -> Performance:
+        """All that it did since the start; ``surfaces`` (N, 3) are those that it should have kept out of."""
         levels = np.concatenate(self._levels)
-        return performance_of(joined(self._parts[1:]), self._segments, self._aims, levels, foot_lock=foot_lock)
+        done, aims = joined(self._parts[1:]), self._aims
+        return performance_of(
+            done, self._segments, aims, levels, terrain=self.terrain, surfaces=surfaces, foot_lock=foot_lock
+        )
 
     def _set_off(self, path: Path, name: str, until: float) -> Path | None:
         """The first step from a held pose along the path; the rest of the path."""

@@ -11,11 +11,14 @@ import numpy as np
 
 from motionrt.locomotion.held_points import hold_points
 from motionrt.locomotion.path import Path
-from motionrt.locomotion.terrain import Heights, on_plane, raised, smoothed
+from motionrt.locomotion.terrain import Heights, Terrain, on_plane, raised, smoothed
+from motionrt.locomotion.uneven import feet_on_ground
 from motionrt.metrics.locomotion import end_error, path_distances
+from motionrt.metrics.penetration import penetration
 from motionrt.metrics.walk_report import LocomotionMeasures
 from motionrt.motion import SMPL24, Motion
-from motionrt.motion.feet.lock import lock_feet
+from motionrt.motion.feet.lock import lock_feet, planted_toes
+from motionrt.motion.skeleton import FloatArray
 
 
 @dataclass(frozen=True)
@@ -62,6 +65,10 @@ class PerformanceMeasures:
         keypoint_max_cm: the largest.
         transition_end_cm: mean distance of the joints at the ends of transitions from the poses aimed at.
         largest_step_cm: the farthest that the root moves from one frame to the next.
+        penetration_share: share of the frames in which a limb is inside a surface of the cloud by more than 1 cm; see
+            :func:`motionrt.metrics.penetration`.
+        penetration_cm: how deep, mean of those frames.
+        penetration_max_cm: the deepest.
     """
 
     motion: LocomotionMeasures
@@ -70,6 +77,9 @@ class PerformanceMeasures:
     keypoint_max_cm: float | None
     transition_end_cm: float | None
     largest_step_cm: float
+    penetration_share: float | None = None
+    penetration_cm: float | None = None
+    penetration_max_cm: float | None = None
 
     def as_dict(self) -> dict[str, float | int | None]:
         """Plain numbers by name, for JSON."""
@@ -87,12 +97,14 @@ class Performance:
         segments: its parts in order, without gaps.
         paths: the paths that were walked.
         ground: ``(F,)`` metres, height of the ground under the character.
+        surfaces: ``(N, 3)`` points of what is not the ground, metres, where a cloud was given.
     """
 
     motion: Motion
     segments: tuple[Segment, ...]
     paths: tuple[Path, ...]
     ground: Heights
+    surfaces: FloatArray | None = None
 
     def __repr__(self) -> str:
         return f"Performance({len(self.segments)} segments, {self.motion.duration:.2f} s)"
@@ -109,6 +121,7 @@ class Performance:
         """How well it was done."""
         steps = np.linalg.norm(np.diff(self.motion.root, axis=0), axis=1)
         misses = [miss for segment in self.segments for miss in segment.miss_cm.values()]
+        inside = None if self.surfaces is None else penetration(self.motion.positions(), self.surfaces)
         return PerformanceMeasures(
             motion=LocomotionMeasures.of(on_plane(self.motion.positions(), self.ground), self.motion.fps),
             off_path_m=_mean([s.off_path_m for s in self.segments], [s.frames for s in self.segments]),
@@ -116,6 +129,9 @@ class Performance:
             keypoint_max_cm=max(misses, default=None),
             transition_end_cm=_mean([s.end_cm for s in self.segments]),
             largest_step_cm=float(100 * steps.max(initial=0.0)),
+            penetration_share=None if inside is None else inside.share,
+            penetration_cm=None if inside is None else inside.mean_cm,
+            penetration_max_cm=None if inside is None else inside.max_cm,
         )
 
     def save(self, path: str | FilePath) -> FilePath:
@@ -124,16 +140,30 @@ class Performance:
 
 
 def performance_of(
-    motion: Motion, segments: Sequence[Segment], aims: Sequence[Aim], ground: Heights, *, foot_lock: bool = True
+    motion: Motion,
+    segments: Sequence[Segment],
+    aims: Sequence[Aim],
+    ground: Heights,
+    *,
+    terrain: Terrain | None = None,
+    surfaces: FloatArray | None = None,
+    foot_lock: bool = True,
 ) -> Performance:
-    """Clean up feet and held keypoints if asked to, raise all to the ``(F,)`` heights of the ground, and measure."""
+    """Clean up feet and held keypoints if asked to, raise all to the ``(F,)`` heights of the ground, and measure.
+
+    Where a terrain is given, each foot stands on the ground under itself.
+    """
     plane = lock_feet(motion) if foot_lock else motion
     ground = smoothed(ground)
     holds = [(each.start, each.end, each.keypoints) for each in segments if each.kind == "hold"]
-    motion = hold_points(raised(plane, ground), holds) if foot_lock else raised(plane, ground)
+    motion = raised(plane, ground)
+    under = None if terrain is None else terrain.heights
+    if foot_lock and under is not None:
+        motion = feet_on_ground(motion, planted_toes(plane), ground, under)
+    motion = hold_points(motion, holds) if foot_lock else motion
     pairs = zip(segments, aims, strict=True)
     measured = tuple(_measured(plane if isinstance(aim, Motion) else motion, segment, aim) for segment, aim in pairs)
-    return Performance(motion, measured, tuple(aim for aim in aims if isinstance(aim, Path)), ground)
+    return Performance(motion, measured, tuple(aim for aim in aims if isinstance(aim, Path)), ground, surfaces)
 
 
 def _measured(motion: Motion, segment: Segment, aim: Aim) -> Segment:

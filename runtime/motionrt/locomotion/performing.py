@@ -12,16 +12,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from motionrt.errors import InvalidInputError, MotionRTError
-from motionrt.locomotion.actions import Act, Action, Do, Follow, Generate, Stand, Wait, WalkTo
+from motionrt.locomotion.actions import Act, Action, Do, Follow, Generate, Lie, Stand, Wait, WalkTo
 from motionrt.locomotion.bearings import apart, facing_of, heading_along, place_of
 from motionrt.locomotion.character import NEAR, Character, Planner
 from motionrt.locomotion.character_models import CharacterModels
 from motionrt.locomotion.crowd import FPS
 from motionrt.locomotion.goal_frame import Goal
+from motionrt.locomotion.lying import lying, seat_keypoints
 from motionrt.locomotion.path import Path
 from motionrt.locomotion.path_following import Pace, Progress
 from motionrt.locomotion.performance import Performance
-from motionrt.motion import Motion
+from motionrt.motion import SMPL24, Motion
 from motionrt.motion.transforms import TOE_JOINTS
 from motionrt.untrusted.arguments import check_flags, check_kind, listed
 
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
     from motionrt.locomotion.words import SemanticCloud
 
 PER_CENT = 100
+RESTS = ("pelvis", "left_ankle", "right_ankle", "head")  # joints of somebody who lies that are told of as keypoints
 BESIDE = 0.3  # metres from where a pose is taken that the transition into it covers without a step
 
 
@@ -38,7 +40,7 @@ class Performer:
     Args:
         models: the models.
         start: where it stands at first, or what it did before.
-        scene: finds ways round obstacles; without one it walks straight.
+        scene: finds ways round obstacles; without one it walks round the things of the cloud, or else straight.
         cloud: tells what words such as "sofa" mean.
         pace: how it walks.
         seed: of the small movements of held poses.
@@ -59,6 +61,10 @@ class Performer:
         generate: Callable[[str, float, int], Motion] | None = None,
     ) -> None:
         level = 0.0 if cloud is None else cloud.floor
+        if scene is None and cloud is not None:
+            from motionrt.locomotion.words.ways import ways_through
+
+            scene = ways_through(cloud)
         self.character = Character(models, start, scene, pace or Pace(), seed, level)
         self.cloud, self._progress, self._generate, self._seed = cloud, progress, generate, seed
 
@@ -79,9 +85,7 @@ class Performer:
         check_flags(stop=stop, foot_lock=foot_lock)
         actions = listed(actions, "actions", "actions")
         for action in actions:
-            check_kind(
-                action, WalkTo | Follow | Act | Do | Generate | Stand | Wait, "each of actions", "a WalkTo, Act, Do ..."
-            )
+            check_kind(action, Action, "each of actions", "a WalkTo, Act, Do ...")
         if not actions:
             raise InvalidInputError("give at least one action")
         for index, action in enumerate(actions):
@@ -93,9 +97,12 @@ class Performer:
                 if len(actions) > 1:
                     error.args = (f"step {index + 1} ('{action.name}'): {error}", *error.args[1:])
                 raise
-        return self.character.performance(foot_lock=foot_lock)
+        surfaces = None if self.cloud is None else self.cloud.obstacles()
+        return self.character.performance(foot_lock=foot_lock, surfaces=surfaces)
 
     def _do(self, action: Action, walks_on: bool, progress: Progress) -> None:
+        if not isinstance(action, Wait):
+            self.character.rise(action.name)
         if isinstance(action, WalkTo | Follow):
             self._walk(action, walks_on, progress)
         elif isinstance(action, Wait):
@@ -108,7 +115,11 @@ class Performer:
             self.character.stand_here(action.name)
             self.character.hold(action.hold_s, action.name)
         else:
-            self._take_pose(self._meant(action) if isinstance(action, Do) else action, progress)
+            meant = self._meant(action) if isinstance(action, Do) else action
+            if isinstance(meant, Lie):
+                self._lie(meant, progress)
+            else:
+                self._take_pose(meant, progress)
         progress(1, 1, action.name)
 
     def _walk(self, action: WalkTo | Follow, walks_on: bool, progress: Progress) -> None:
@@ -143,13 +154,30 @@ class Performer:
         character.into(pose, action.name, level)
         character.hold(action.hold_s, action.name, action.keypoints)
 
+    def _lie(self, action: Lie, progress: Progress) -> None:
+        character = self.character
+        level = character.terrain.at(action.edge, 0.0)
+        at = (action.at[0], action.at[1] - level, action.at[2])
+        keypoints, facing, gate = seat_keypoints(at, action.edge, 0.0)
+        seat, pose = (
+            character.models.pose(keypoints, facing).motion,
+            lying(character.models.standing, at, action.heading),
+        )
+        if apart(gate, character.place) > NEAR:
+            character.go(character.way(gate), action.name, character.braking, progress)
+        character.stop(gate, facing, action.name)
+        character.lie(seat, pose, action.name, level)
+        joints = pose.positions()[0]
+        points = {name: joints[SMPL24.index(name)] + np.array([0.0, level, 0.0]) for name in RESTS}
+        character.hold(action.hold_s, action.name, {name: tuple(map(float, point)) for name, point in points.items()})
+
     def _made(self, action: Generate) -> Motion:
         """The motion of a text, at 30 fps."""
         if self._generate is None:
             raise InvalidInputError(f"'{action.text}' needs a generator: perform it with motionrt.Runtime")
         return self._generate(action.text, action.seconds, self._seed).resample(FPS)
 
-    def _meant(self, action: Do) -> Act:
+    def _meant(self, action: Do) -> Act | Lie:
         """What an instruction means here."""
         from motionrt.locomotion.words import action_keypoints
 
@@ -157,6 +185,8 @@ class Performer:
             raise InvalidInputError(f"'{action.text}' needs a scene with names: give cloud=, a semantic point cloud")
         found = action_keypoints(action.text, self.cloud, self.character.place)
         keypoints = {joint: tuple(float(x) for x in point) for joint, point in found.keypoints.items()}
+        if found.bed is not None:
+            return Lie(found.bed.at, found.bed.edge, found.bed.heading, action.hold_s, found.name)
         approach = (float(found.approach[0]), float(found.approach[1]))
         return Act(keypoints, found.heading, action.hold_s, approach, found.name)
 

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from motionrt.limits import how_to_raise, limits
-from motionrt.locomotion.actions import HOLD_S, Act, Action, Do, Follow, Generate, Stand, Wait, WalkTo
+from motionrt.locomotion.actions import HOLD_S, Act, Action, Do, Follow, Generate, Lie, Stand, Wait, WalkTo
 from motionrt.locomotion.path import Path
 from motionrt.locomotion.script_nodes import Node, unknown
 from motionrt.locomotion.script_scene import file_beside
@@ -90,6 +90,13 @@ def _do(node: Node) -> Action:
     return Do(found["text"].text(example), _hold(found))
 
 
+def _lie(node: Node) -> Action:
+    found = node.fields(("name", "at", "edge", "heading", "hold"), required=("at", "edge", "heading"))
+    x, y, z = found["at"].point("xyz")
+    name = found["name"].text("name: lie down") if "name" in found else "lie down"
+    return Lie((x, y, z), found["edge"].place(), found["heading"].radians(), _hold(found), name)
+
+
 def _wait(node: Node) -> Action:
     return Wait(node.seconds())
 
@@ -105,6 +112,7 @@ def _hold(found: Mapping[str, Node]) -> float:
 _READERS: dict[str, Callable[[Node], Action]] = {
     "walk": _walk,
     "act": _act,
+    "lie": _lie,
     "do": _do,
     "stand": _stand,
     "wait": _wait,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -25,6 +26,12 @@ class Terrain:
 
     def __init__(self, scene: object, level: float = 0.0) -> None:
         self._height, self._level = getattr(scene, "height", None), level
+
+    @property
+    def heights(self) -> Callable[[npt.NDArray[np.floating]], Heights] | None:
+        """Places ``(N, 2)`` -> ``(N,)`` metres, NaN where there is no ground; None without a scene."""
+        height = self._height
+        return None if height is None else lambda places: np.asarray(height(places), dtype=np.float64)
 
     def at(self, place: Place, otherwise: float = 0.0) -> float:
         """Metres; ``otherwise`` where there is no ground."""

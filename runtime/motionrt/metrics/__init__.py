@@ -18,6 +18,7 @@ from motionrt.metrics.locomotion import (
 )
 from motionrt.metrics.matching import chance, matching, matching_ranks
 from motionrt.metrics.part_labels import PartAccuracy, part_accuracy
+from motionrt.metrics.penetration import Penetration, penetration, penetration_depths
 from motionrt.metrics.protocols import (
     all_pairs,
     all_with_threshold,
@@ -39,6 +40,7 @@ __all__ = [
     "LocomotionMeasures",
     "PartAccuracy",
     "PathDeviation",
+    "Penetration",
     "PositionErrors",
     "Retrieval",
     "Scores",
@@ -65,6 +67,8 @@ __all__ = [
     "multimodality",
     "part_accuracy",
     "path_deviation",
+    "penetration",
+    "penetration_depths",
     "ranks",
     "retrieval",
     "scores",

@@ -17,6 +17,8 @@ _ROWS: tuple[tuple[str, str, float, str], ...] = (  # name, label, factor, unit
     ("height_drift_cm", "drift in height", 1, "cm"),
     ("keypoint_cm", "off the keypoints, mean", 1, "cm"),
     ("keypoint_max_cm", "off the keypoints, most", 1, "cm"),
+    ("penetration_share", "frames with limbs in surfaces", 100, "%"),
+    ("penetration_max_cm", "limbs in surfaces, most", 1, "cm"),
     ("transition_end_cm", "off the ends of transitions", 1, "cm"),
 )
 

@@ -217,7 +217,7 @@ class Locomotion(Service):
 
         Args:
             scene: a scene or its file; None for open ground.
-            actions: values of :mod:`motionrt.locomotion.actions`: WalkTo, Follow, Act, Do, Generate, Stand, Wait.
+            actions: values of :mod:`motionrt.locomotion.actions`: WalkTo, Follow, Act, Lie, Do, Generate, Stand, Wait.
             cloud: a semantic point cloud or its file, for ``Do("sit on the sofa")``.
             start: where to begin, standing, or a motion to go on from; as for :meth:`walk`.
             speed: metres per second.

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from pathlib import Path as FilePath
 from typing import Any
 
-from motionrt.locomotion import Act, Action, Do, Follow, Generate, Goal, Stand, WalkTo
+from motionrt.locomotion import Act, Action, Do, Follow, Generate, Goal, Lie, Stand, WalkTo
 from motionrt.locomotion.script_scene import SceneSpec
 
 HEAD = "# Made in the motionrt studio. Play it with: motionrt perform FILE -o motion.bvh\n"
@@ -55,11 +55,11 @@ def _step(action: Action) -> dict[str, Any]:
         return {"walk": {"path": [_numbers(point) for point in action.path.points], **_heading(action.heading)}}
     if isinstance(action, Act):
         return {"act": _act(action)}
+    if isinstance(action, Lie):
+        return {"lie": _lie(action)}
     if isinstance(action, Do | Generate):
         return {"do": _told(action)}
-    if isinstance(action, Stand):
-        return {"stand": float(action.hold_s)}
-    return {"wait": float(action.seconds)}
+    return {"stand": float(action.hold_s)} if isinstance(action, Stand) else {"wait": float(action.seconds)}
 
 
 def _told(action: Do | Generate) -> dict[str, Any]:
@@ -73,6 +73,11 @@ def _act(action: Act) -> dict[str, Any]:
     keypoints = {joint: _numbers(point) for joint, point in action.keypoints.items()}
     named = {"name": action.name, **approach, **_heading(action.heading)}
     return {**named, "keypoints": keypoints, "hold": float(action.hold_s)}
+
+
+def _lie(action: Lie) -> dict[str, Any]:
+    places = {"name": action.name, "at": _numbers(action.at), "edge": _numbers(action.edge)}
+    return {**places, **_heading(action.heading), "hold": float(action.hold_s)}
 
 
 def _heading(radians: float | None) -> dict[str, float]:

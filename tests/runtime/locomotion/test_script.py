@@ -146,7 +146,7 @@ def test_what_yaml_writes_comes_back(told: list[tuple[dict[str, Any], Any]], flo
 
 
 BAD = {
-    "- sitt: {}": r"script\.yaml:2: step 1: unknown action 'sitt'; there are: walk, act, do",
+    "- sitt: {}": r"script\.yaml:2: step 1: unknown action 'sitt'; there are: walk, act, lie, do",
     "- stans: 1": r"script\.yaml:2: step 1: unknown action 'stans'; did you mean stand\?",
     "- wait: 1\n- wlak: {to: [1, 2]}": r"script\.yaml:3: step 2: unknown action 'wlak'; did you mean walk\?",
     "- walk": r"step 1: action 'walk' stands alone; write it with a colon",

@@ -9,6 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from motionrt.errors import InvalidInputError
+from motionrt.locomotion.lying import seat_keypoints
+from motionrt.locomotion.words.beds import Bed, find_bed
 from motionrt.locomotion.words.cloud import SemanticCloud
 from motionrt.locomotion.words.footprint import Plan, Side, sides
 from motionrt.locomotion.words.instruction import Instruction, parse_instruction
@@ -45,12 +47,14 @@ class ActionKeypoints:
         keypoints: ``{joint of smpl24: (3,) float32 metres}``, for ``solve_pose``.
         heading: yaw of the body, radians from +Z towards +X.
         approach: ``(2,)`` float32 x and z: where to walk to before.
+        bed: where to lie and to sit down before, of somebody who shall lie; its keypoints are those of the seat.
     """
 
     name: str
     keypoints: Mapping[str, FloatArray]
     heading: float
     approach: FloatArray
+    bed: Bed | None = None
 
 
 def action_keypoints(
@@ -71,10 +75,12 @@ def action_keypoints(
     told = instruction if isinstance(instruction, Instruction) else parse_instruction(instruction)
     here = ground_place(near)
     thing = find_thing(told, cloud, here)
+    if told.verb == "lie":
+        return _lie(thing)
     rules = {"sit": _sit, "stand": _stand, "lean": _lean, "look": _look, "open": _open}
     rules |= dict.fromkeys(("grab", "reach", "touch"), _hand_at)
     if told.verb not in rules:
-        raise InvalidInputError(f"unknown verb '{told.verb}'; there are: {', '.join(rules)}")
+        raise InvalidInputError(f"unknown verb '{told.verb}'; there are: lie, {', '.join(rules)}")
     keypoints, heading, approach = rules[told.verb](told, thing)
     named = {joint: np.asarray(point, dtype=np.float32) for joint, point in keypoints.items()}
     return ActionKeypoints(f"{told.verb} {thing.label}", named, heading, approach.astype(np.float32))
@@ -95,6 +101,13 @@ def _sit(_: Instruction, thing: Thing) -> _Answer:
     keypoints = {"pelvis": _point(front.at(seat.across, pelvis), seat.height + PELVIS_ABOVE_SEAT)}
     keypoints |= _feet(front.at(seat.across, toes), -front.along, floor)
     return keypoints, front.heading_out, _before(seat, thing)
+
+
+def _lie(thing: Thing) -> ActionKeypoints:
+    bed = find_bed(thing)
+    points, heading, approach = seat_keypoints(bed.at, bed.edge, thing.around.floor)
+    named = {joint: np.asarray(point, dtype=np.float32) for joint, point in points.items()}
+    return ActionKeypoints(f"lie {thing.label}", named, heading, np.array(approach, dtype=np.float32), bed)
 
 
 def _before(seat: Seat, thing: Thing) -> Plan:

@@ -88,10 +88,11 @@ class SemanticCloud:
         label = self.floor_label
         return float(self.points[:, 1].min() if label is None else np.median(self.of(label)[:, 1]))
 
-    def obstacles(self, thing: npt.NDArray[np.int64]) -> FloatArray:
+    def obstacles(self, thing: npt.NDArray[np.int64] | None = None) -> FloatArray:
         """Points ``(n, 3)`` that are neither the ground nor among the indices ``thing``."""
         free = np.ones(len(self), dtype=bool)
-        free[thing] = False
+        if thing is not None:
+            free[thing] = False
         if self.floor_label is not None:
             free &= self.index != self.names.index(self.floor_label)
         return np.asarray(self.points[free])

@@ -23,7 +23,7 @@ class Instruction:
     """What a character is told to do.
 
     Attributes:
-        verb: one of ``sit``, ``grab``, ``reach``, ``touch``, ``open``, ``lean``, ``look``, ``stand``.
+        verb: one of ``sit``, ``lie``, ``grab``, ``reach``, ``touch``, ``open``, ``lean``, ``look``, ``stand``.
         object: the thing or place, as it was called.
         height: metres above the ground, or None where it was not said.
         hand: ``left`` or ``right``, or None where it was not said.
@@ -56,6 +56,7 @@ def parse_instruction(text: str) -> Instruction:
 
 _EXAMPLES = {
     "sit": "on the sofa",
+    "lie": "on the bed",
     "grab": "from the shelf at 1.2 m",
     "reach": "the lamp",
     "touch": "the wall with the left hand",

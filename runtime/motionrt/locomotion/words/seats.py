@@ -51,11 +51,11 @@ def find_seat(points: FloatArray, floor: float, front: Side, near: Plan | None) 
     return Seat(height, front, across, float(edge), float(back))
 
 
-def seat_height(points: FloatArray, floor: float) -> float:
+def seat_height(points: FloatArray, floor: float, verb: str = "sit") -> float:
     """World height of the level between 25 and 75 cm that covers most of the ground plan.
 
     Raises:
-        InvalidInputError: no such level is large enough to sit on.
+        InvalidInputError: no such level is large enough to sit on; ``verb`` says what for.
     """
     heights = points[:, 1] - floor
     levels = np.arange(LOWEST, HIGHEST + 1e-6, 0.01)
@@ -63,7 +63,7 @@ def seat_height(points: FloatArray, floor: float) -> float:
     most = max(covered)
     if most < _LEAST_AREA:
         raise InvalidInputError(
-            f"nothing to sit on: no surface between {100 * LOWEST:.0f} and {100 * HIGHEST:.0f} cm above the ground"
+            f"nothing to {verb} on: no surface between {100 * LOWEST:.0f} and {100 * HIGHEST:.0f} cm above the ground"
         )
     level = float(np.mean(levels[np.array(covered) >= 0.97 * most]))
     return float(np.median(points[np.abs(heights - level) <= _THICKNESS, 1]))
@@ -79,13 +79,13 @@ def seat_surface(points: FloatArray, height: float) -> FloatArray:
 
 def backrest_front(points: FloatArray, height: float, around: Sequence[Side]) -> Side | None:
     """The side opposite to the backrest, or None for a seat without one."""
-    walls = [_wall(points, height, side) for side in around]
+    walls = [rim_height(points, height, side) for side in around]
     openness = [walls[(i + 2) % 4] - walls[i] for i in range(4)]
     best = int(np.argmax(openness))
     return around[best] if openness[best] > 0.1 else None
 
 
-def _wall(points: FloatArray, height: float, side: Side) -> float:
+def rim_height(points: FloatArray, height: float, side: Side) -> float:
     """Mean height above the seat, metres, of what stands along the rim of a side."""
     rim = points[(side.inside(points) < min(_RIM, side.depth / 3)) & (points[:, 1] > height + _BACKREST)]
     columns = max(1, int(side.width / _CELL))

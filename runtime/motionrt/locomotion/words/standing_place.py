@@ -12,7 +12,7 @@ from motionrt.motion.skeleton import FloatArray
 
 BODY = 0.20  # metres of free ground around somebody who stands
 TOES = 0.10  # metres that the balls of the feet are in front of the body's middle
-_LOW, _HIGH = 0.10, 1.80  # metres above the ground between which things are in the way
+LOW, HIGH = 0.10, 1.80  # metres above the ground between which things are in the way
 _CHEST = 0.90  # metres above the ground; an arm reaches over what is lower
 _FURTHEST = 0.60  # metres that one steps back from a blocked spot
 
@@ -71,7 +71,7 @@ class Spot:
 def surroundings(points: FloatArray, floor: float, ground: Plan | None, near: Plan, weight: float) -> Surroundings:
     """Of obstacles' points ``(N, 3)``, what a body could bump into and what its arms could not reach over."""
     heights = points[:, 1] - floor
-    low, high = plan(points[(heights > _LOW) & (heights < _HIGH)]), plan(points[(heights > _CHEST) & (heights < _HIGH)])
+    low, high = plan(points[(heights > LOW) & (heights < HIGH)]), plan(points[(heights > _CHEST) & (heights < HIGH)])
     return Surroundings(floor, low, high, ground, near, weight)
 
 

@@ -55,7 +55,7 @@ def find_thing(told: Instruction, cloud: SemanticCloud, near: Plan | None) -> Th
         label, indices = item, _nearest(cloud, item, plan(cloud.points[indices]).mean(axis=0))
     middle = plan(cloud.points).mean(axis=0)
     points = cloud.points[indices]
-    if told.verb != "sit":
+    if told.verb not in {"sit", "lie"}:
         points = _stretch(points, middle if near is None else near)
     ground = None if cloud.floor_label is None else plan(cloud.of(cloud.floor_label))
     weight = 0.1 if near is None else 0.3

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 VERBS: dict[str, tuple[str, ...]] = {
     "sit": ("sit", "seat yourself", "have a seat", "take a seat", "be seated", "rest"),
+    "lie": ("lie", "lie down", "lay down", "lay", "sleep", "stretch out", "go to bed"),
     "grab": ("grab", "pick", "pick up", "take", "grasp", "fetch", "get", "hold", "collect"),
     "reach": ("reach", "reach out", "stretch"),
     "touch": (
@@ -30,6 +31,7 @@ ALIKE: tuple[frozenset[str], ...] = tuple(
     for group in (
         "sofa, couch, settee, loveseat",
         "chair, armchair, seat, office chair",
+        "bed, mattress, cot, bunk, daybed",
         "stool, bar stool, ottoman, pouf",
         "shelf, bookshelf, bookcase, rack, shelving, shelving unit",
         "cupboard, cabinet, wardrobe, closet",
