@@ -18,6 +18,7 @@ THRUSTS = frozenset({"punch", "throw"})  # acts in which an arm is stretched, as
 STRETCHED = 0.97  # of the length of an arm
 LARGEST = 3.0  # times as far that a thrust is made, at most
 SMALLEST = 0.02  # metres of a thrust that is worth it
+_FASTER, _SHORT = 1.01, 1e-3  # times too fast and metres too short that are let be, so that no rounding decides
 
 BoolArray = npt.NDArray[np.bool_]
 
@@ -29,7 +30,7 @@ def calmed(features: FloatArray, said: TextAttributes) -> tuple[FloatArray, Bool
         return rows, parts
     if said.still:
         speed = max(_speed(rows, f"{side}_{joint}") for side in ("left", "right") for joint in ("wrist", "ankle"))
-        if speed > STILL:
+        if speed > _FASTER * STILL:
             part = max(LEAST, STILL / speed)
             _scaled(rows, np.arange(ego77.CONTACTS.start), part)
             rows[:, :3] *= part
@@ -52,7 +53,7 @@ def _thrust(rows: FloatArray, side: str) -> bool:
     away = rows[:, wrist] - rows[:, shoulder]
     reach = np.maximum(np.linalg.norm(away, axis=1), 1e-3)
     usual, farthest = float(np.median(reach)), float(reach.max())
-    if farthest >= full or farthest - usual < SMALLEST:
+    if farthest > full - _SHORT or farthest - usual < SMALLEST:
         return False
     times = min(LARGEST, (full - usual) / (farthest - usual))
     farther = np.where(reach > usual, usual + times * (reach - usual), reach)
@@ -69,7 +70,7 @@ def _favour(rows: FloatArray, parts: BoolArray, side: str) -> None:
     """Calm the other arm where it moves as much as the one that is named; in place."""
     other = "right" if side == "left" else "left"
     named, left_out = (_speed(rows, f"{one}_wrist", f"{one}_shoulder") for one in (side, other))
-    if left_out <= ONE_ARM * named:
+    if left_out <= _FASTER * ONE_ARM * named:
         return
     _about_shoulder(rows, other, max(LEAST, ONE_ARM * named / left_out))
     parts[:, PARTS.index(f"{other} arm")] = True

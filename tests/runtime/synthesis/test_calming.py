@@ -70,3 +70,12 @@ def test_a_punch_stretches_the_arm_that_is_named_where_it_reached_out_farthest()
     assert reach.argmax() == before.argmax()
     assert np.median(reach) == pytest.approx(np.median(before), abs=5e-3)
     assert parts[0, PARTS.index("right arm")]
+
+
+@pytest.mark.parametrize("text", ["a person stands still", "wave with the right hand", "punch with the right fist"])
+def test_what_is_calmed_or_stretched_needs_no_more_however_it_is_rounded(text: str) -> None:
+    found, _ = calmed(waving(0.1, 0.1), parse_query(text))
+    for rounding in (1 - 1e-6, 1.0, 1 + 1e-6):
+        again, parts = calmed(found * np.float32(rounding), parse_query(text))
+        assert not parts.any()
+        np.testing.assert_array_equal(again, found * np.float32(rounding))
