@@ -1,15 +1,12 @@
-// Limbs do what a text says: who stands still is still, one arm waves where one is named, punches reach out; and heights.
-import { WIDTH } from "./ego77";
+// Limbs do what a text says: who stands still is still, one arm waves where one is named, punches reach out.
+import { columnOf, FPS, WIDTH } from "./ego77";
 import { clamp, length } from "./rotations";
 import { joint, OFFSETS, PARTS } from "./skeleton";
 import type { Said } from "./words";
 
 const [STILL, ONE_ARM, LEAST] = [0.1, 0.55, 0.15]; // m/s of who stands still; speed of the other hand; part that is left
 const [STRETCHED, LARGEST, SMALLEST] = [0.97, 3, 0.02]; // of an arm; times as far at most; metres that are worth it
-const HEIGHTS: Record<string, number> = { standing: 0.94, crouching: 0.58, sitting: 0.5, crawling: 0.45, kneeling: 0.44, lying: 0.09 }; // metres
-const [FIRST, LAST, LATEST_S, CHANGE_S, LEAST_CHANGE] = [0.4, 0.7, 2, 0.2, 0.2];
-
-const columnOf = (name: string): number => 4 + 3 * (joint(name) - 1);
+const [FASTER, SHORT] = [1.01, 1e-3]; // times too fast and metres too short that are let be, so that no rounding decides
 
 /** Change features F x 77 in place to what a text wants of limbs; the parts that were changed. */
 export function calm(rows: Float32Array, said: Said): boolean[] {
@@ -17,7 +14,7 @@ export function calm(rows: Float32Array, said: Said): boolean[] {
   if (rows.length < 2 * WIDTH) return parts;
   if (said.still) {
     const speed = Math.max(...["left", "right"].flatMap((side) => ["wrist", "ankle"].map((name) => speedOf(rows, `${side}_${name}`))));
-    if (speed <= STILL) return parts;
+    if (speed <= FASTER * STILL) return parts;
     const part = Math.max(LEAST, STILL / speed);
     scale(rows, Array.from({ length: WIDTH - 4 }, (_, i) => i), part);
     for (let i = 0; i < rows.length; i += WIDTH) for (let k = 0; k < 3; k++) rows[i + k] *= part;
@@ -41,7 +38,7 @@ function thrust(rows: Float32Array, side: string): boolean {
   const sorted = [...reach].sort((a, b) => a - b);
   const usual = (sorted[(frames - 1) >> 1] + sorted[frames >> 1]) / 2;
   const farthest = sorted[frames - 1];
-  if (farthest >= full || farthest - usual < SMALLEST) return false;
+  if (farthest > full - SHORT || farthest - usual < SMALLEST) return false;
   const times = Math.min(LARGEST, (full - usual) / (farthest - usual));
   away.forEach((way, f) => {
     const farther = reach[f] > usual ? usual + times * (reach[f] - usual) : reach[f];
@@ -62,7 +59,7 @@ function thrust(rows: Float32Array, side: string): boolean {
 function favour(rows: Float32Array, parts: boolean[], side: string): void {
   const other = side === "left" ? "right" : "left";
   const [named, leftOut] = [side, other].map((one) => speedOf(rows, `${one}_wrist`, `${one}_shoulder`));
-  if (leftOut <= ONE_ARM * named) return;
+  if (leftOut <= FASTER * ONE_ARM * named) return;
   const arm = ["elbow", "wrist", "hand"].flatMap((name) => [0, 1, 2].map((i) => columnOf(`${other}_${name}`) + i));
   const base = columnOf(`${other}_shoulder`);
   const shift = (sign: number): void => {
@@ -91,33 +88,5 @@ function speedOf(rows: Float32Array, name: string, about?: string): number {
   const at = (f: number, i: number): number => rows[f * WIDTH + column + i] - (base < 0 ? 0 : rows[f * WIDTH + base + i]);
   let sum = 0;
   for (let f = 1; f < frames; f++) sum += Math.hypot(...[0, 1, 2].map((i) => at(f, i) - at(f - 1, i)));
-  return (sum / (frames - 1)) * 20;
-}
-
-/** Heights of the pelvis in metres of a text that goes down or up on the spot, of so many frames at 20 fps; else null. */
-export function heightsOf(said: Said, frames: number): number[] | null {
-  const goes = (value: unknown): boolean => Boolean(value) && value !== "none";
-  const course = goes(said.travel) || goes(said.turn) || said.path || said.jumps ? null : courseOf(said);
-  if (!course) return null;
-  const [start, middle, end] = course;
-  const seconds = (frames - 1) / 20;
-  const first = Math.min((middle === null ? FIRST : 1 - LAST) * seconds, LATEST_S);
-  const changed = (time: number): number => 1 / (1 + Math.exp(-time / CHANGE_S));
-  return Array.from({ length: frames }, (_, f) => {
-    const height = start + ((middle ?? end) - start) * changed(f / 20 - first);
-    return middle === null ? height : height + (end - middle) * changed(f / 20 - LAST * seconds);
-  });
-}
-
-function courseOf(said: Said): [number, number | null, number] | null {
-  const up = HEIGHTS.standing;
-  const height = (name: string | null | undefined): number | null => HEIGHTS[name ?? ""] ?? null;
-  let [start, end] = [height(said.posture_start), height(said.posture_end)];
-  const lowest = height(said.posture_lowest);
-  let middle: number | null = null;
-  if (said.level === "up") [start, end] = [start ?? lowest ?? (/\b(?:floor|ground)\b/.test(said.text) ? 0.3 : HEIGHTS.sitting), up];
-  else if (said.level === "down") [start, end] = [up, end ?? lowest];
-  else if (said.level === "down and up" || ((start === null || start === up) && end === up && lowest !== null)) [start, middle, end] = [up, lowest, up];
-  if (start === null || end === null) return null;
-  return Math.max(start, end) - Math.min(start, end, middle ?? end) >= LEAST_CHANGE ? [start, middle, end] : null;
+  return (sum / (frames - 1)) * FPS;
 }

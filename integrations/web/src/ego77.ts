@@ -1,8 +1,12 @@
 // `ego77`, what the generator sees at 20 fps: turn and way of the root, height, joints about the body, contacts.
-import { JOINTS } from "./skeleton";
+import { JOINTS, joint } from "./skeleton";
 
 export const WIDTH = 77;
 export const FPS = 20;
+export const CONTACTS = 73; // first column of those of left and right ankle, left and right toe
+
+/** The first of the three columns of a joint other than the pelvis. */
+export const columnOf = (name: string): number => 4 + 3 * (joint(name) - 1);
 
 /** Features F x 77 to joints F x 24 x 3 in metres; the first frame stands above the origin and faces +Z. */
 export function decode(rows: Float32Array | Float64Array): Float64Array {

@@ -1,29 +1,27 @@
 // Foot locking: the ball of a standing foot stays where it stands (motionrt.motion.feet.lock).
-import { Motion } from "./motion";
-import { add, apply, clamp, dot, length, minus, multiply, rotationBetween, times, transposed, unit, type Numbers, type Vec3 } from "./rotations";
-import { JOINTS, joint } from "./skeleton";
+import { bent, LEGS, softLimit } from "./legs";
+import type { Motion } from "./motion";
+import { add, clamp, length, minus, times, type Numbers, type Vec3 } from "./rotations";
 
-const BLEND_S = 0.2; // seconds over which a correction fades
+export const BLEND_S = 0.2; // seconds over which a correction fades
 const MAX_DROP = 0.05; // metres that the pelvis may sink for a foot that would not reach
 const CLEARANCE = 0.02; // metres above the floor of a toe that swings by
-const MAX_SHIFT = 0.1; // metres that a toe is moved in a contact
+export const MAX_SHIFT = 0.1; // metres that a toe is moved in a contact
 const DOWN = 0.025; // metres
 const CALMER = 0.25;
-const LOOSE_SPEED = Math.sqrt(0.002) * 20; // m/s, where guo263 sees a contact
+export const LOOSE_SPEED = Math.sqrt(0.002) * 20; // m/s, where guo263 sees a contact
 const STRICT_SPEED = LOOSE_SPEED / 2;
-const [STRICT_HEIGHT, LOOSE_HEIGHT] = [0.06, 0.09];
+export const STRICT_HEIGHT = 0.06;
+const LOOSE_HEIGHT = 0.09;
 const SHORTEST_S = 0.07;
-const LEGS = ["left", "right"].map((side) => ["hip", "knee", "ankle", "foot"].map((name) => joint(`${side}_${name}`)));
-const SOFT = 0.01;
-const [STRAIGHT, BENT] = [0.015, 0.05];
 
-interface Run {
+export interface Run {
   start: number;
   stop: number;
 }
 
 /** Start and stop (exclusive) of every run of true values. */
-function runsOf(flags: boolean[]): Run[] {
+export function runsOf(flags: boolean[]): Run[] {
   const found: Run[] = [];
   flags.forEach((flag, f) => {
     if (flag && (f === 0 || !flags[f - 1])) found.push({ start: f, stop: f + 1 });
@@ -32,27 +30,41 @@ function runsOf(flags: boolean[]): Run[] {
   return found;
 }
 
+/** How high toes swing: metres above the floor, and m/s above which they do; all of it is kept at twice that. */
+export interface Swing {
+  clearance: number;
+  from: number;
+}
+
 /** The motion, on the floor, with feet that stand still while they stand and swing clear of the floor. */
-export function lockFeet(motion: Motion): Motion {
-  const { frames, fps } = motion;
-  const positions = motion.positions();
-  const at = (f: number, j: number): Vec3 => [0, 1, 2].map((i) => positions[(f * JOINTS + j) * 3 + i]) as Vec3;
-  const offsets = LEGS.map((leg) => {
-    const toes = Array.from({ length: frames }, (_, f) => at(f, leg[3]));
+export function lockFeet(motion: Motion, swing: Swing = { clearance: CLEARANCE, from: LOOSE_SPEED }): Motion {
+  const { fps } = motion;
+  const found = LEGS.map(([, , , toe]) => {
+    const toes = wayOf(motion, toe);
     const speed = speeds(toes, fps);
     const planted = plantedOf(toes, speed, fps);
     const offset = pinned(toes, planted, speed.map(calm), BLEND_S * fps);
-    offset.forEach((way, f) => (way[1] += lift(toes[f][1] + way[1], speed[f])));
+    offset.forEach((way, f) => (way[1] += lift(toes[f][1] + way[1], speed[f], swing)));
     return { planted, offset };
   });
-  const needed = Array.from({ length: frames }, (_, f) =>
-    clamp(Math.max(...LEGS.map((leg, i) => (offsets[i].planted[f] ? drop(leg.map((j) => at(f, j)), offsets[i].offset[f]) : 0))), 0, MAX_DROP),
-  );
-  const sinks = smoothCover(needed, Math.max(1, Math.round((BLEND_S * fps) / 2)));
-  return bent(motion, offsets.map(({ offset }) => offset), sinks);
+  return moved(motion, found.map(({ offset }) => offset), found.map(({ planted }) => planted));
 }
 
-function speeds(points: Vec3[], fps: number): number[] {
+/** The places of a joint. */
+export function wayOf(motion: Motion, index: number): Vec3[] {
+  return Array.from({ length: motion.frames }, (_, f) => [0, 1, 2].map((axis) => motion.at(f, index, axis)) as Vec3);
+}
+
+/** Left and right foot moved by bending the legs; the pelvis sinks where one that counts would not reach. */
+export function moved(motion: Motion, offsets: Vec3[][], counts: boolean[][]): Motion {
+  const chains = LEGS.map(([hip, knee, ankle]) => [hip, knee, ankle].map((index) => wayOf(motion, index)));
+  const needed = Array.from({ length: motion.frames }, (_, f) =>
+    clamp(Math.max(...chains.map((chain, i) => (counts[i][f] ? drop(chain.map((way) => way[f]), offsets[i][f]) : 0))), 0, MAX_DROP),
+  );
+  return bent(motion, offsets, smoothCover(needed, Math.max(1, Math.round((BLEND_S * motion.fps) / 2))));
+}
+
+export function speeds(points: Vec3[], fps: number): number[] {
   const half = Math.max(1, Math.round(fps / 30));
   return points.map((_, f) => {
     const [before, after] = [Math.max(f - half, 0), Math.min(f + half, points.length - 1)];
@@ -124,12 +136,17 @@ function pinned(toes: Vec3[], planted: boolean[], weights: number[], blend: numb
       offset[f][1] /= 1 + (offset[f][1] / (DOWN / 2)) ** 4;
     }
   }
+  return faded(offset, planted, blend);
+}
+
+/** Offsets that leave and reach every contact with the speed they have there. */
+export function faded(offset: Vec3[], contacts: boolean[], blend: number): Vec3[] {
   const out = offset.map((way): Vec3 => [...way]);
-  for (const { start, stop } of runsOf(planted.map((flag) => !flag))) {
+  for (const { start, stop } of runsOf(contacts.map((flag) => !flag))) {
     const span = clamp(stop - start + 1, 1, Math.max(blend, 1));
     for (let f = start; f < stop; f++) {
       if (start > 0) out[f] = add(out[f], tail(offset, start - 1, -1, f - start + 1, span));
-      if (stop < toes.length) out[f] = add(out[f], tail(offset, stop, 1, stop - f, span));
+      if (stop < offset.length) out[f] = add(out[f], tail(offset, stop, 1, stop - f, span));
     }
   }
   return out;
@@ -144,14 +161,12 @@ function tail(offset: Vec3[], edge: number, inward: number, time: number, span: 
 }
 
 /** Metres to raise a toe that moves at `speed`: not negative, and smooth. */
-function lift(height: number, speed: number): number {
-  const s = clamp((speed - LOOSE_SPEED) / LOOSE_SPEED, 0, 1);
-  const swings = CLEARANCE * s * s * (3 - 2 * s);
+function lift(height: number, speed: number, { clearance, from }: Swing): number {
+  const s = clamp((speed - from) / from, 0, 1);
+  const swings = clearance * s * s * (3 - 2 * s);
   const short = swings - height;
   return (short + Math.sqrt(short * short + (swings / 2) ** 2)) / 2;
 }
-
-const softLimit = (distance: number, full: number): number => clamp(distance, full * (1 - SOFT), full * (1 - 1e-5));
 
 /** Metres that the pelvis must sink so that a pinned foot is in reach. */
 function drop([hip, knee, ankle]: Vec3[], offset: Numbers): number {
@@ -172,57 +187,3 @@ function smoothCover(values: number[], half: number): number[] {
     kernel.reduce((sum, weight, i) => sum + (weight / total) * maximum[clamp(f + i - half, 0, values.length - 1)], 0),
   );
 }
-
-/** Both feet moved by bending the legs, with the pelvis sunk; the feet keep their global rotations. */
-function bent(motion: Motion, offsets: Vec3[][], sinks: number[]): Motion {
-  const [rotations, root] = [motion.rotations.slice(), motion.root.slice()];
-  const [positions, turned] = [motion.positions(), motion.globalRotations()];
-  for (let f = 0; f < motion.frames; f++) {
-    root[3 * f + 1] -= sinks[f];
-    const global = (j: number): number[] => Array.from(turned.subarray((f * JOINTS + j) * 9, (f * JOINTS + j) * 9 + 9));
-    LEGS.forEach(([hip, knee, ankle], i) => {
-      const chain = [hip, knee, ankle].map((j): Vec3 => [0, 1, 2].map((k) => positions[(f * JOINTS + j) * 3 + k] - (k === 1 ? sinks[f] : 0)) as Vec3);
-      const way = add(offsets[i][f], [0, sinks[f], 0]);
-      const thigh = global(hip);
-      const [upper, lower] = twoBone(chain, [thigh, global(knee)], add(chain[2], way), [thigh[2], thigh[5], thigh[8]]);
-      const put = (j: number, m: number[]): void => rotations.set(m, (f * JOINTS + j) * 9);
-      put(hip, multiply(transposed(global(0)), upper));
-      put(knee, multiply(transposed(upper), lower));
-      put(ankle, multiply(transposed(lower), global(ankle)));
-    });
-  }
-  return new Motion(rotations, root, motion.fps);
-}
-
-/** New global rotations of the two bones of a limb whose end is brought to `target`. */
-function twoBone([start, middle, end]: Vec3[], rotations: number[][], target: Vec3, pole: Vec3): [number[], number[]] {
-  const [upper, lower] = [minus(middle, start), minus(end, middle)];
-  const [line, way] = [minus(end, start), minus(target, start)];
-  const [a, b] = [length(upper), length(lower)];
-  const distance = Math.max(softReach(length(way), length(line), a + b), Math.abs(a - b) * (1 + 1e-6) + 1e-9);
-  const swing = rotationBetween(line, way);
-  const share = (a ** 2 - b ** 2 + distance ** 2) / (2 * distance);
-  const height = Math.sqrt(Math.max(a ** 2 - share ** 2, 0));
-  const along = unit(apply(swing, line));
-  const newMiddle = add(start, add(times(along, share), times(apply(swing, bendOf(upper, line, pole, height, a + b)), height)));
-  const newEnd = add(start, times(along, distance));
-  const bones = [minus(newMiddle, start), minus(newEnd, newMiddle)];
-  return [upper, lower].map((bone, i) => multiply(rotationBetween(apply(swing, bone), bones[i]), multiply(swing, rotations[i]))) as [number[], number[]];
-}
-
-function softReach(wanted: number, now: number, full: number): number {
-  const limit = softLimit(now, full);
-  const room = full - limit;
-  return wanted > limit ? limit + room * -Math.expm1(-(wanted - limit) / room) : wanted;
-}
-
-function bendOf(upper: Vec3, given: Vec3, pole: Vec3, height: number, full: number): Vec3 {
-  const line = unit(given);
-  const orthogonal = (vector: Vec3): Vec3 => minus(vector, times(line, dot(vector, line)));
-  const off = orthogonal(upper);
-  const guide = unit(orthogonal(pole));
-  const now = length(off);
-  const straight = clamp((BENT * full - now) / ((BENT - STRAIGHT) * full), 0, 1);
-  return unit(add(off, times(guide, 4 * straight * Math.max(height - now, 0) + 1e-9)));
-}
-

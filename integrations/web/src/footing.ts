@@ -1,13 +1,11 @@
 // Whoever stays on the spot is carried by the feet that stand: the root goes so that they do not slide.
-import { smoothed, WIDTH } from "./ego77";
+import { columnOf, CONTACTS, smoothed, WIDTH } from "./ego77";
 import { clamp } from "./rotations";
-import { joint } from "./skeleton";
 import type { Said } from "./words";
 
 const [ON_THE_SPOT, GOING] = [1, 0.3]; // how far the root is carried
 const [LOW, SPREAD] = [[0.13, 0.13, 0.08, 0.08], 0.03]; // metres up to which ankles and toes stand, and a little above
-const FEET = ["left_ankle", "right_ankle", "left_foot", "right_foot"].map((name) => 4 + 3 * (joint(name) - 1));
-const CONTACTS = 73;
+const FEET = ["left_ankle", "right_ankle", "left_foot", "right_foot"].map(columnOf);
 
 /** How far the feet carry the root of a motion: 1 wholly, 0 not at all. */
 export function shareOf(said: Said): number {

@@ -1,27 +1,26 @@
 // Text to motion by diffusion in motion space (motionrt.synthesis): the solver, the canvas, and the motion of it.
-import { calm, heightsOf } from "./calming";
-import start from "./data/start.json";
+import { type Held, over, type Piece } from "./canvas";
 import data from "./data/words.json";
 import { checkedNumber, InvalidInputError } from "./errors";
 import { between, decode, FPS, smoothed, WIDTH } from "./ego77";
 import { lockFeet } from "./feet";
-import { carried, shareOf } from "./footing";
+import { withHeads } from "./heads";
 import { Motion } from "./motion";
 import { fromPositions } from "./positions";
 import { Random } from "./random";
 import { numbers, type Sessions } from "./sessions";
 import { JOINTS, PARTS } from "./skeleton";
+import { stepWhereSliding } from "./sliding";
+import { kept, planned, steered } from "./steering";
 import type { TextEncoder, TokenFeatures } from "./text";
-import { brought, wayOf } from "./ways";
-import { parseQuery, type Said, slotsOf, targetsOf } from "./words";
+import { parseQuery, slotsOf, targetsOf } from "./words";
 
 const READ = 24; // tokens of a text that the network has learnt to read
 const [HIGHEST, LOWEST, BEND] = [60, 0.15, 7]; // noise levels (Karras et al. 2022, eq. 5)
 const [POSE_GUIDANCE, TURN_GUIDANCE] = [5, 1.3];
 const [LATE, GUIDED] = [2.5, 2]; // noise levels below which the way is corrected, and down to which texts are guided
-const OWNERS: readonly number[] = start.owners; // of every column the part that it belongs to
-const GLOBAL = PARTS.indexOf("global");
 const [NETWORK, OVERLAP] = [200, 5]; // frames at 20 fps: that the network sees, over which texts pass into each other
+const SWING = { clearance: 0.03, from: 0.6 }; // metres and m/s: a generated foot that swings drags more than a recorded one
 
 export interface Sampling {
   /** Seconds, 0.5 to 10. */
@@ -48,12 +47,6 @@ export interface Line {
   seconds: number;
 }
 
-interface Piece {
-  words: { features: TokenFeatures; slots: number[]; numbers: Float32Array; known: boolean[]; said: Said };
-  first: number;
-  weight: Float32Array; // of its frames
-}
-
 /** Falling noise levels of so many steps. */
 export function noiseLevels(steps: number): number[] {
   const [high, low] = [HIGHEST ** (1 / BEND), LOWEST ** (1 / BEND)];
@@ -70,19 +63,20 @@ export class Generator {
     const lines = single ? [{ text: what, seconds: checkedNumber(sampling.seconds ?? 4, "seconds", 0.5, 10) }] : what;
     if (!lines.length) throw new InvalidInputError("a timeline needs at least one text");
     if (!single) for (const line of lines) checkedNumber(line.seconds, "seconds of a line", 0.5, 9.5);
-    const seconds = lines.reduce((sum, line) => sum + line.seconds, 0);
-    const { pieces, frames } = await this.pieces(lines, sampling.features);
+    const times = timesOf(lines);
+    const { pieces, frames } = await this.pieces(lines, times, sampling.features);
     const rows = await this.draw(pieces, frames, sampling);
-    const motion = asMotion(rows);
-    const finished = motion.slice(0, Math.min(motion.frames, Math.round(30 * seconds))).canonical().grounded();
-    return sampling.footLock ?? true ? lockFeet(finished) : finished;
+    const wanted = rounded(30 * times[times.length - 1].to);
+    const motion = asMotion(rows, wanted);
+    const drawn = motion.slice(0, Math.min(motion.frames, wanted));
+    const finished = withHeads(drawn, lines.map(({ text }, i) => ({ text, ...times[i] }))).canonical().grounded();
+    return sampling.footLock ?? true ? lockFeet(stepWhereSliding(finished), SWING) : finished;
   }
 
-  private async pieces(lines: Line[], given?: TokenFeatures): Promise<{ pieces: Piece[]; frames: number }> {
-    const ends = lines.map((_, i) => lines.slice(0, i + 1).reduce((sum, line) => sum + line.seconds, 0));
-    const all = Math.round(ends[ends.length - 1] * FPS) + 1;
+  private async pieces(lines: Line[], times: Time[], given?: TokenFeatures): Promise<{ pieces: Piece[]; frames: number }> {
+    const all = rounded(times[times.length - 1].to * FPS) + 1;
     const frames = lines.length === 1 ? Math.min(all, NETWORK) : all;
-    const spans = lines.map((line, i) => spanOf(ends[i] - line.seconds, ends[i], frames));
+    const spans = times.map(({ from, to }) => spanOf(from, to, frames));
     const weights = spans.map(([first, last]) => rampOf(first, last, frames));
     const total = new Float32Array(frames);
     weights.forEach((weight, i) => weight.forEach((value, f) => (total[spans[i][0] + f] += value)));
@@ -168,77 +162,40 @@ export class Generator {
 
 const PLAIN = Float32Array.of(1, 1);
 
-/** What of a motion is kept: features F x 77, and F x 6 which parts of which frames. */
-interface Held {
-  motion: Float32Array;
-  parts: Uint8Array;
-}
-
-const nothing = (frames: number): Held => ({ motion: new Float32Array(frames * WIDTH), parts: new Uint8Array(frames * PARTS.length) });
-const holds = ({ parts }: Held, f: number, column: number): boolean => parts[f * PARTS.length + OWNERS[column]] > 0;
-
-/** Both; where both keep something, the first counts. */
-function over(first: Held, second: Held): Held {
-  const motion = first.motion.map((value, i) => (holds(first, Math.floor(i / WIDTH), i % WIDTH) ? value : second.motion[i]));
-  return { motion, parts: first.parts.map((flag, i) => flag | second.parts[i]) };
-}
-
-/** The frames whose root belongs to each piece, and what its text says. */
-function spans(pieces: Piece[]): { from: number; to: number; said: Said }[] {
-  return pieces.flatMap(({ words, first, weight }) => {
-    const own = Array.from(weight.keys()).filter((f) => weight[f] > 0.5);
-    return own.length ? [{ from: first + own[0], to: first + own[own.length - 1] + 1, said: words.said }] : [];
-  });
-}
-
-/** The root of texts that go down or up, on the spot. */
-function planned(pieces: Piece[], frames: number): Held {
-  const held = nothing(frames);
-  for (const { from, to, said } of spans(pieces))
-    heightsOf(said, to - from)?.forEach((height, i) => {
-      held.motion[(from + i) * WIDTH + 3] = height;
-      held.parts[(from + i) * PARTS.length + GLOBAL] = 1;
-    });
-  return held;
-}
-
-/** What must be otherwise about a motion so that it does what the texts of its pieces say. */
-function steered(raw: Float32Array, pieces: Piece[]): Held {
-  const held = nothing(raw.length / WIDTH);
-  for (const { from, to, said } of spans(pieces)) {
-    let rows: Float32Array = raw.slice(from * WIDTH, to * WIDTH);
-    const parts = calm(rows, said);
-    const share = to - from > 1 ? shareOf(said) : 0;
-    if (share) {
-      rows = carried(rows, share);
-      parts[GLOBAL] = true;
-    }
-    const way = wayOf(said, (to - from) / FPS);
-    const found = way && brought(rows, way);
-    if (found) parts[GLOBAL] = true;
-    held.motion.set(found ?? rows, from * WIDTH);
-    for (let f = from; f < to; f++) held.parts.set(parts.map(Number), f * PARTS.length);
-  }
-  return held;
-}
-
-/** The motion with all that its texts ask for. */
-function kept(raw: Float32Array, pieces: Piece[], plan: Held): Float32Array {
-  const held = over(steered(raw, pieces), plan);
-  return raw.map((value, i) => (holds(held, Math.floor(i / WIDTH), i % WIDTH) ? held.motion[i] : value));
-}
-
-/** Features at 20 fps to a motion at 30 fps. */
-function asMotion(rows: Float32Array): Motion {
+/** Features at 20 fps to a motion at 30 fps; for the longest text, of which so many frames are wanted, the last one goes on as it went. */
+function asMotion(rows: Float32Array, wanted: number): Motion {
   const ratio = FPS / 30;
-  const count = Math.floor((rows.length / WIDTH - 1) / ratio + 1e-6) + 1;
-  const times = Array.from({ length: count }, (_, f) => f * ratio);
-  return fromPositions(between(decode(rows), JOINTS * 3, times), 30);
+  const many = (frames: number): number => Math.floor((frames - 1) / ratio + 1e-6) + 1;
+  const [width, frames] = [JOINTS * 3, rows.length / WIDTH];
+  let [joints, count] = [decode(rows), many(frames)];
+  if (count < wanted) {
+    const [before, last] = [frames - 2, frames - 1].map((f) => joints.subarray(f * width, (f + 1) * width));
+    joints = Float64Array.from([...joints, ...last.map((value, i) => 2 * value - before[i])]);
+    count = many(frames + 1);
+  }
+  return fromPositions(between(joints, width, Array.from({ length: count }, (_, f) => f * ratio)), 30);
+}
+
+/** The nearest whole number, the even one of two that are as near. */
+function rounded(value: number): number {
+  const below = Math.floor(value);
+  return below + (value - below === 0.5 ? below % 2 : Math.round(value - below));
+}
+
+/** Seconds from and to which a line holds. */
+interface Time {
+  from: number;
+  to: number;
+}
+
+function timesOf(lines: Line[]): Time[] {
+  let to = 0;
+  return lines.map(({ seconds }) => ({ from: to, to: (to += seconds) }));
 }
 
 /** First frame and the one behind the last that a line is denoised in, with what overlaps. */
 function spanOf(from: number, to: number, frames: number): [number, number] {
-  const [first, last] = [Math.round(from * FPS), Math.min(frames, Math.round(to * FPS) + 1)];
+  const [first, last] = [rounded(from * FPS), Math.min(frames, rounded(to * FPS) + 1)];
   const more = Math.min(OVERLAP, Math.floor((NETWORK - (last - first)) / 2));
   return [Math.max(0, first - more), Math.min(frames, last + more)];
 }

@@ -3,6 +3,7 @@ export { InvalidInputError, LoadError, MotionRTError } from "./errors";
 export { toBVH, toGLB, toJSON } from "./files";
 export { Gallery, type Hit } from "./gallery";
 export { type Line, type Sampling } from "./generation";
+export { type Gesture, type Gestures, gesturesOf, type HeadGesture } from "./gestures";
 export { Motion, poseBetween } from "./motion";
 export { Random } from "./random";
 export { type Described, MotionRT, type Options } from "./runtime";

@@ -1,68 +1,12 @@
 // What a text says about a motion: motionrt's parser, with the patterns of its lexicon (data/words.json).
 import data from "./data/words.json";
+import { first, type Found, has, matches, only, plain, sides, type Table, without } from "./patterns";
 
 export type Said = Record<string, any>;
-type Table = [string, string][];
 
 const lex = data.lexicon as Record<string, any>;
 const OTHER: Record<string, string> = { left: "right", right: "left" };
-const LONGEST = 1000; // characters of a text that are read
 const SEVERAL = -1;
-
-const [ASCII, ANY] = [new Map<string, RegExp>(), new Map<string, RegExp>()];
-
-/** A Python pattern as JavaScript's, whose \w and \b know ASCII alone otherwise; that is quicker where it is enough. */
-function compiled(pattern: string, text: string): RegExp {
-  const plain = /^[\x00-\x7f]*$/.test(text);
-  const known = plain ? ASCII : ANY;
-  let found = known.get(pattern);
-  if (!found) {
-    const word = "[\\p{L}\\p{N}_]";
-    const wider: Record<string, string> = { w: word, b: `(?:(?<=${word})(?!${word})|(?<!${word})(?=${word}))`, d: "\\p{Nd}" };
-    const source = pattern.replace(/\(\?P</g, "(?<");
-    found = plain ? new RegExp(source, "g") : new RegExp(source.replace(/\\([wbd])/g, (_, kind: string) => wider[kind]), "gu");
-    known.set(pattern, found);
-  }
-  found.lastIndex = 0;
-  return found;
-}
-
-interface Found {
-  start: number;
-  end: number;
-  text: string;
-  groups: Record<string, string | undefined>;
-}
-
-function matches(text: string, pattern: string): Found[] {
-  return [...text.matchAll(compiled(pattern, text))].map((match) => ({
-    start: match.index,
-    end: match.index + match[0].length,
-    text: match[0],
-    groups: match.groups ?? {},
-  }));
-}
-
-function has(text: string, pattern: string): boolean {
-  return compiled(pattern, text).test(text);
-}
-
-const without = (text: string, patterns: string[]): string => patterns.reduce((rest, pattern) => rest.replace(compiled(pattern, rest), "_"), text);
-const first = (text: string, table: Table): string | null => table.find(([, pattern]) => has(text, pattern))?.[0] ?? null;
-const sides = (text: string, patterns: string[]): Set<string> =>
-  new Set(patterns.flatMap((pattern) => matches(text, pattern).map((match) => match.groups.side!)));
-const only = (found: Set<string>): string | null => (found.size === 1 ? [...found][0] : null);
-
-/** Lower case, without accents, hyphens and doubled spaces. */
-export function plain(text: string): string {
-  const letters = [...text].slice(0, LONGEST).join("").normalize("NFKD").toLowerCase().replaceAll("\u2019", "'");
-  return letters
-    .replace(/\p{M}/gu, (mark) => (/\p{Mc}/u.test(mark) ? mark : ""))
-    .replace(/[-_/\u2010-\u2015]+/g, " ")
-    .split(/[\s\x1c-\x1f\x85]+/u)
-    .filter(Boolean)
-    .join(" ");
-}
 
 /** What `text` says: attributes by name, undefined or null where it says nothing. */
 export function parseQuery(text: string): Said {

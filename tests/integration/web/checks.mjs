@@ -1,5 +1,5 @@
 // What the tests ask of motionrt-web in Node.js: reads jobs as JSON from stdin, writes their results as JSON to stdout.
-import { InvalidInputError, LoadError, MotionRT, Motion, Random, Tokenizer, compose, parseQuery, slotsOf, targetsOf, toBVH, toGLB } from "motionrt-web";
+import { InvalidInputError, LoadError, MotionRT, Motion, Random, Tokenizer, compose, gesturesOf, parseQuery, slotsOf, targetsOf, toBVH, toGLB } from "motionrt-web";
 import { folder } from "motionrt-web/node";
 import { readFileSync, writeFileSync } from "node:fs";
 
@@ -20,6 +20,7 @@ const jobs = {
       const { numbers, known } = targetsOf(said, seconds);
       return { slots: slotsOf(said), numbers: [...numbers], known };
     }),
+  gestures: ({ texts }) => texts.map((text) => gesturesOf(parseQuery(text))),
   normals: ({ seed, sample, count }) => [...new Random(seed, sample).normals(count)],
   async embed({ texts }) {
     const rt = await open();
@@ -46,6 +47,12 @@ const jobs = {
   async generate({ text, seconds, seed, steps, features, width }) {
     const given = features && { tokens: features.length / width, features: Float32Array.from(features) };
     return plain(await (await open()).generate(text, { seconds, seed, steps, features: given }));
+  },
+  async motions({ asked }) {
+    const rt = await open();
+    const found = [];
+    for (const { what, seconds, seed, footLock } of asked) found.push(plain(await rt.generate(what, { seconds, seed, footLock })));
+    return found;
   },
   async stroll({ x, z, frames }) {
     const stroller = await (await open()).stroller();

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -17,12 +19,18 @@ from motionrt.models.walknet import WalkModel
 from motionrt.retrieval import EMBEDDING_ONLY
 from motionrt.retrieval.captions import read_captions
 from motionrt.services.search import DEFAULT_CAPTIONS
-from motionrt.text import parse_query, slots_of_text, targets_of_text
+from motionrt.text import gestures_of_text, parse_query, slots_of_text, targets_of_text
 from motionrt.web import write_folder
 
 from .conftest import PACKAGE, Ask
 
 TEXT = "somebody strolls to the left and hails a taxi"
+GESTURES = (
+    "claps twice and points with the left hand", "bows, then takes a bow", "draws a bow", "stands on her left foot",
+    "kneels on one knee", "kneels and prays", "marches without clapping", "plays the violin", "raises the left arm",
+    "raises one hand", "raises both arms while walking", "at that point of the dance", "looks left and right and nods",
+    "élève: shakes his head – a naïve bow",
+)  # fmt: skip
 LETTERS = "éİßΣςﬁǅ①ʼ中한😀–’\u00a0\u0301\u200b\u2028\ufffd\t"
 
 
@@ -69,6 +77,13 @@ def test_texts_say_the_same_about_motions(ask: Ask) -> None:
         assert found["slots"] == slots_of_text(parse_query(text)).tolist(), text
         assert found["known"] == known.tolist()
         np.testing.assert_allclose(found["numbers"], numbers, atol=1e-6)
+
+
+def test_texts_mean_the_same_gestures(ask: Ask) -> None:
+    said = [*GESTURES, *read_captions(DEFAULT_CAPTIONS), *texts(300, seed=5)]
+    for text, found in zip(said, ask("gestures", texts=said), strict=True):
+        wanted = json.loads(json.dumps(asdict(gestures_of_text(parse_query(text)))))
+        assert {**found, "hands": sorted(found["hands"])} == wanted, text
 
 
 def test_a_seed_draws_the_same_numbers(ask: Ask) -> None:

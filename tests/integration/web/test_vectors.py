@@ -8,6 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from motionrt.synthesis.finishing import locked
+from motionrt.synthesis.motion_generator import MotionGenerator, Wanted
+from motionrt.synthesis.sampling import Sampling
+from motionrt.synthesis.timeline import Line, read_timeline
 from motionrt.web.folder import motion_rows
 
 from .conftest import Ask
@@ -17,6 +21,14 @@ pytest.importorskip("torch", reason="torch is not installed; the export extra br
 pytest.importorskip("onnx", reason="onnx is not installed; the export extra brings it")
 
 ROOT = Path(__file__).parents[3]
+TEXTS: tuple[tuple[str, float], ...] = (
+    *(("a person claps", 4.0), ("a person points with the left hand", 3.25), ("somebody takes a bow", 4.0)),
+    *(("a person marches in place", 4.0), ("a man kneels on one knee", 4.0), ("stands on one leg", 3.0)),
+    *(("a person throws a ball", 4.0), ("a woman drinks from a cup", 4.0), ("a person crawls", 4.0)),
+    *(("sidesteps to the left", 4.0), ("a person turns right", 2.55), ("looks around and nods", 4.0)),
+    *(("stands still", 3.0), ("wave with the right hand", 4.0), ("a person walks forward", 9.5)),
+)
+TIMELINE = (("a person walks forward", 3.0), ("a person claps three times and looks up", 2.5))
 MODELS = ("tmr_text", "walknet", "motion_denoiser")
 
 
@@ -70,6 +82,36 @@ def test_a_seed_gives_the_same_motion(ask: Ask, vectors: Path, float_site: Path)
         asked = {key: one[key] for key in ("text", "seconds", "seed", "steps")}
         found = as_motion(ask("generate", site=float_site, **asked))
         np.testing.assert_allclose(motion_rows(found), np.load(vectors.parent / f"motion_{number}_rows.npy"), atol=1e-3)
+
+
+def test_gestures_and_steps_are_those_of_python(ask: Ask, portable_files: Path, float_site: Path) -> None:
+    from motionrt_export.vectors import FloatSessions
+
+    generator = MotionGenerator(FloatSessions(portable_files))
+    asked: list[list[tuple[str, float]]] = [[one] for one in TEXTS] + [list(TIMELINE)]
+    jobs = [
+        {"what": [{"text": text, "seconds": seconds} for text, seconds in lines], "seed": seed, "footLock": lock}
+        for seed, lines in enumerate(asked)
+        for lock in (False, True)
+    ]
+    made = [as_motion(one) for one in ask("motions", site=float_site, asked=jobs)]
+    for seed, lines in enumerate(asked):
+        wanted = Wanted(read_timeline(lines, lambda _: frozenset()))
+        drawn = generator.generate(wanted, Sampling(seed=seed, foot_lock=False))[0]
+        for found, motion, metres in zip(
+            made[2 * seed : 2 * seed + 2], (drawn, locked(drawn)), (1e-3, 5e-3), strict=True
+        ):
+            np.testing.assert_allclose(found.positions(), motion.positions(), rtol=0, atol=metres, err_msg=str(lines))
+
+
+def test_the_longest_text_gives_300_frames_of_the_same_motion(ask: Ask, portable_files: Path, float_site: Path) -> None:
+    from motionrt_export.vectors import FloatSessions
+
+    wanted = Wanted((Line("a person walks forward", 0.0, 10.0),))
+    drawn = MotionGenerator(FloatSessions(portable_files)).generate(wanted, Sampling(seconds=10.0, seed=12))[0]
+    found = as_motion(ask("generate", site=float_site, text="a person walks forward", seconds=10, seed=12))
+    assert found.frames == drawn.frames == 300
+    np.testing.assert_allclose(found.positions(), drawn.positions(), rtol=0, atol=5e-3)
 
 
 def test_quantised_files_make_nearly_the_same_motion(ask: Ask, vectors: Path) -> None:
