@@ -55,6 +55,8 @@ class FloatSessions(Sessions):
     def __init__(self, folder: Path) -> None:
         super().__init__(threads=1)
         self._folder, self._float = folder, dict[str, ort.InferenceSession]()
+        self._options = ort.SessionOptions()
+        self._options.intra_op_num_threads = 1
 
     def run(
         self, model: str, outputs: Sequence[str], feeds: Mapping[str, npt.NDArray[Any]], variant: str | None = None
@@ -63,7 +65,9 @@ class FloatSessions(Sessions):
         path = self._folder / f"{model}.portable.onnx"
         if not path.is_file():
             return super().run(model, list(outputs), dict(feeds), variant)
-        session = self._float.setdefault(model, ort.InferenceSession(path, providers=["CPUExecutionProvider"]))
+        session = self._float.get(model)
+        if session is None:
+            session = self._float[model] = ort.InferenceSession(path, self._options, ["CPUExecutionProvider"])
         known = {value.name for value in session.get_inputs()}
         return session.run(list(outputs), {name: value for name, value in feeds.items() if name in known})
 
