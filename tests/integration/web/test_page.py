@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import base64
 import gzip
+import io
 import json
+import os
 import threading
 from collections.abc import Iterator
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -97,6 +100,36 @@ def test_a_crowd_of_32_walks(page: Page) -> None:
     page.wait_text("32 characters", 120)
     page.run("motionrt.tick(0.2)")
     assert page.run("motionrt.waits.length") > 0
+
+
+def test_ten_seconds_of_the_page_become_a_gif(page: Page, tmp_path: Path) -> None:
+    image = pytest.importorskip("PIL.Image", reason="Pillow is not installed; the extra render brings it")
+    kept = os.environ.get("MOTIONRT_PICTURES")  # a folder that keeps what is made
+    out = (tmp_path if kept is None else Path(kept)) / "web_page.gif"
+    crowd = "document.getElementById('crowd')"
+    page.run(f"{crowd}.textContent === 'One character' && {crowd}.click()")
+    page.wait(f"{crowd}.textContent === 'Crowd of 32'", 60)
+    page.run("motionrt.remote.call.start({ x: 0, z: 0, heading: 0.5 })")
+    shots = []
+
+    def film(seconds: float) -> None:
+        for _ in range(round(10 * seconds)):
+            page.run("globalThis.ticked = false, void motionrt.tick(0.1).then(() => globalThis.ticked = true)")
+            page.wait("ticked", 240)
+            drawn = page.run("motionrt.stage.draw(), document.querySelector('canvas').toDataURL('image/png')")
+            picture = image.open(io.BytesIO(base64.b64decode(drawn.partition(",")[2])))
+            shots.append(picture.convert("RGB").resize((520, 340)).quantize(48))
+
+    page.click_at(440, 200)
+    film(5.5)
+    page.run("void motionrt.act('raise both arms', 1)")
+    page.wait_text("“raise both arms”, seed 1", 240)
+    film(4.5)
+    shots[0].save(out, save_all=True, append_images=shots[1:], duration=100, loop=0, optimize=True)
+    with image.open(out) as made:
+        assert made.n_frames == len(shots) == 100
+    differ = [not np.array_equal(a, b) for a, b in pairwise(shots)]
+    assert sum(differ) > 80
 
 
 def test_nothing_comes_from_elsewhere_and_loads_stay_within_their_budgets(page: Page, site: Path) -> None:
