@@ -7,9 +7,9 @@ import os
 import shutil
 import subprocess
 import sys
-import sysconfig
 import zipfile
 from functools import lru_cache
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -95,7 +95,7 @@ def with_addon(script: str, out: Path) -> dict[str, Any]:
     """What a script does with the add-on and the packages of this Python."""
     if python_of_blender() != f"{sys.version_info.major}.{sys.version_info.minor}":
         pytest.skip(f"Blender has Python {python_of_blender()}, the tests another: their packages do not fit")
-    packages = os.pathsep.join([str(Path(motionrt.__file__).parents[1]), sysconfig.get_path("purelib")])
+    packages = os.pathsep.join([str(Path(motionrt.__file__).parents[1]), str(Path(np.__file__).parents[1])])
     return blender(script, ADDON, out, env={"PYTHONPATH": packages})
 
 
@@ -124,8 +124,50 @@ def test_the_add_on_names_the_action_after_the_clip(used: dict[str, Any]) -> Non
     assert used["applied"].startswith("a person")
 
 
+def test_hits_are_previewed_on_a_figure_with_a_body_that_apply_takes_away(used: dict[str, Any]) -> None:
+    bodies, vertices, action = used["previewed"]
+    assert used["still_active"]
+    assert bodies == 1
+    assert vertices > 4000
+    assert action.startswith("preview of a person")
+    assert used["preview_gone"]
+
+
+def test_keys_behind_the_current_frame_are_kept_in_the_action_that_they_are_in(used: dict[str, Any]) -> None:
+    assert used["kept"] == [True, True, True]
+
+
+def test_the_walk_along_a_curve_keeps_to_it(used: dict[str, Any]) -> None:
+    pelvis = np.array(used["along"])[:, :2]
+    corners = np.array([[1.0, 0.0], [1.0, -3.0], [3.0, -4.0]])
+    line = np.concatenate([np.linspace(a, b, 200) for a, b in ((corners[0], corners[1]), corners[1:])])
+    off = np.linalg.norm(pelvis[:, None] - line, axis=2).min(axis=1)
+    assert off.max() < 0.4  # corners are cut
+    np.testing.assert_allclose(pelvis[-1], corners[-1], atol=0.15)
+
+
+def test_markers_become_one_motion_along_the_curve(used: dict[str, Any]) -> None:
+    name, (first, last), pelvis = used["timeline"]
+    assert name == "walk forward, a person walks forward"
+    assert (first, last) == (11, 130)
+    np.testing.assert_allclose(np.array(pelvis)[[0, 2], :2], [[1.0, 0.0], [3.0, -4.0]], atol=0.25)
+
+
 def test_the_add_on_refuses_an_empty_text_with_the_runtimes_words(used: dict[str, Any]) -> None:
     assert "the text is empty" in used["refused"]
+
+
+@pytest.mark.skipif(find_spec("bpy") is None, reason="needs Blender as a Python module: pip install bpy")
+def test_the_add_on_does_the_same_in_bpy_from_pypi(used: dict[str, Any], tmp_path: Path) -> None:
+    out = tmp_path / "seen.json"
+    command = [sys.executable, str(SCRIPTS / "use_addon.py"), "--", str(ADDON), str(out)]
+    subprocess.run(command, check=True, capture_output=True)
+    found = json.loads(out.read_text(encoding="utf-8"))
+    for name in ("hits", "applied", "previewed", "preview_gone", "kept"):
+        assert found[name] == used[name]
+    for name in ("generated", "walk", "along"):
+        assert len(found[name]) == len(used[name])
+    np.testing.assert_allclose(found["along"], used["along"], atol=0.02)
 
 
 def test_on_an_artists_rig_limbs_point_as_those_of_the_runtimes_motion(own_rig: dict[str, Any]) -> None:

@@ -8,6 +8,7 @@ import bpy
 import numpy as np
 
 from . import axes, curves, figure, rigs
+from .installing import InstallError
 
 if TYPE_CHECKING:
     from motionrt import Motion
@@ -30,13 +31,33 @@ def put(context: bpy.types.Context, armature: bpy.types.Object, motion: Motion, 
     """
     scene = context.scene
     shown = motion.resample(rate(scene))
-    action = curves.action_of(armature, name[:60], fresh=fresh)
     first = scene.frame_current + (0 if fresh else 1)
+    action = curves.action_of(armature, name[:60], fresh=fresh, first=first)
     for bone, channel, values in _keys(armature, shown):
         armature.pose.bones[bone].rotation_mode = "QUATERNION"
         curves.write(armature, action, bone, channel, values, first)
     scene.frame_end = max(scene.frame_end, first + shown.frames - 1)
     return f"{shown.frames} frames of '{name}' on {armature.name}"
+
+
+def way(context: bpy.types.Context, armature: bpy.types.Object, curve: bpy.types.Object) -> list[tuple[float, float]]:
+    """The points (x, z) of a curve of the scene on the ground of the motion that the armature shows, in order.
+
+    Raises:
+        InstallError: it is no curve, or one without length.
+    """
+    if curve is None or curve.type != "CURVE":
+        raise InstallError("choose a curve as the path first")
+    seen = curve.evaluated_get(context.evaluated_depsgraph_get())
+    mesh = seen.to_mesh()
+    try:
+        points = [ground(armature, seen.matrix_world @ vertex.co) for vertex in mesh.vertices]
+    finally:
+        seen.to_mesh_clear()
+    points = [point for k, point in enumerate(points) if k == 0 or np.hypot(*np.subtract(point, points[k - 1])) > 1e-3]
+    if len(points) < 2:
+        raise InstallError(f"the curve {curve.name} has no length on the ground; give it two points, and no bevel")
+    return points
 
 
 def rate(scene: bpy.types.Scene) -> float:

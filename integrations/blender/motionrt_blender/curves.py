@@ -8,10 +8,22 @@ import numpy as np
 LINEAR = 1  # of the enumeration of interpolations
 
 
-def action_of(armature: bpy.types.Object, name: str, *, fresh: bool) -> bpy.types.Action:
-    """The armature's action, a new one where it has none or a fresh one is wanted."""
+def action_of(armature: bpy.types.Object, name: str, *, fresh: bool, first: float) -> bpy.types.Action:
+    """The action to write into from frame ``first`` on; no key of another is lost.
+
+    It is a new one where the armature has none or a fresh one is wanted, and a copy where its action has keys from
+    ``first`` on. Actions that the armature leaves stay in the file.
+    """
     data = armature.animation_data or armature.animation_data_create()
-    if data.action is None or fresh:
+    before = data.action
+    if before is not None and (fresh or before.frame_range[1] >= first):
+        before.use_fake_user = True
+    if before is not None and not fresh and before.frame_range[1] >= first:
+        slot = data.action_slot.handle if hasattr(before, "slots") and data.action_slot else None
+        data.action = before.copy()
+        if slot is not None:
+            data.action_slot = next(other for other in data.action.slots if other.handle == slot)
+    elif before is None or fresh:
         data.action = bpy.data.actions.new(name)
         if hasattr(data.action, "slots"):
             data.action_slot = data.action.slots.new(id_type="OBJECT", name=armature.name)

@@ -1,4 +1,4 @@
-"""An armature of motionrt's own skeleton, for whoever has none selected."""
+"""An armature of motionrt's own skeleton with a body, for whoever has none selected."""
 
 from __future__ import annotations
 
@@ -39,7 +39,31 @@ def build(name: str = "motionrt") -> bpy.types.Object:
             bone.parent = armature.data.edit_bones[SMPL24.names[SMPL24.parents[joint]]]
     bpy.ops.object.mode_set(mode="OBJECT")
     armature.show_in_front = True
+    _dress(armature)
     return armature
+
+
+def _dress(armature: bpy.types.Object) -> None:
+    """A body of a mesh on the armature, so that there is somebody to see."""
+    from motionrt import SMPL24
+    from motionrt.studio.figure import figure_of
+
+    body = figure_of(SMPL24)
+    mesh = bpy.data.meshes.new(armature.name)
+    mesh.from_pydata(points(body.vertices.astype(np.float64)).tolist(), [], body.faces.tolist())
+    mesh.polygons.foreach_set("use_smooth", np.ones(len(mesh.polygons), bool))
+    seen = bpy.data.objects.new(f"{armature.name} body", mesh)
+    bpy.context.collection.objects.link(seen)
+    seen.parent = armature
+    seen.hide_select = True
+    for joint in range(body.weights.shape[1]):
+        group = seen.vertex_groups.new(name=SMPL24.names[joint])
+        for weight in np.unique(body.weights[:, joint].round(2)):
+            moved = np.flatnonzero(body.weights[:, joint].round(2) == weight)
+            if weight > 0:
+                group.add(moved.tolist(), float(weight), "REPLACE")
+    modifier = seen.modifiers.new("motionrt", "ARMATURE")
+    modifier.object = armature
 
 
 def _select(armature: bpy.types.Object) -> None:

@@ -127,14 +127,11 @@ class MOTIONRT_OT_apply(_NeedsPackage, bpy.types.Operator):
 
     def work(self, context: bpy.types.Context) -> str:
         """The found span of the clip."""
-        chosen = context.scene.motionrt
-        index = self.index if self.index >= 0 else chosen.hit
-        if index >= len(chosen.hits):
-            raise installing.InstallError("search first, then choose a hit")
-        line = chosen.hits[index]
-        gallery = runtime().gallery(_gallery(context))
-        motion = gallery.motion(line.clip).between(line.start_s, line.end_s).canonical()
-        return _put(context, motion, line.text or line.clip)
+        from . import preview
+
+        motion, name = _found(context, self.index)
+        preview.remove(context)
+        return _put(context, motion, name)
 
 
 class MOTIONRT_OT_generate(_NeedsPackage, bpy.types.Operator):
@@ -172,6 +169,74 @@ class MOTIONRT_OT_walk_to_cursor(_NeedsPackage, bpy.types.Operator):
         return armatures.put(context, armature, walk.motion, "walk", fresh=start is None)
 
 
+class MOTIONRT_OT_walk_along(_NeedsPackage, bpy.types.Operator):
+    """Let the character walk along the chosen curve, from its first point to its last"""
+
+    bl_idname, bl_label = "motionrt.walk_along", "Walk along the curve"
+    bl_options = {"REGISTER", "UNDO"}
+
+    def work(self, context: bpy.types.Context) -> str:
+        """In a new action, from the current frame on."""
+        from . import armatures
+
+        chosen, armature = context.scene.motionrt, armatures.target(context)
+        walk = runtime().walk(path=armatures.way(context, armature, chosen.path), speed=chosen.speed)
+        return armatures.put(context, armature, walk.motion, f"walk along {chosen.path.name}", fresh=True)
+
+
+class MOTIONRT_OT_generate_timeline(_NeedsPackage, bpy.types.Operator):
+    """Make one motion of the scene's markers, each a text until the next one; along the curve, if one is chosen"""
+
+    bl_idname, bl_label = "motionrt.generate_timeline", "Generate from markers"
+    bl_options = {"REGISTER", "UNDO"}
+    seed: IntProperty(name="Seed", default=-1)
+
+    def work(self, context: bpy.types.Context) -> str:
+        """In a new action, from the first marker on."""
+        from . import armatures, timeline
+
+        chosen, scene = context.scene.motionrt, context.scene
+        first, texts = timeline.of_markers(scene, armatures.rate(scene))
+        armature = armatures.target(context)
+        way = armatures.way(context, armature, chosen.path) if chosen.path else []
+        constraints, start = timeline.along(way, texts[-1]["to"])
+        seed = self.seed if self.seed >= 0 else chosen.seed
+        made = runtime().generate(timeline=texts, constraints=constraints, seed=seed)
+        motion = timeline.placed(made, start)
+        scene.frame_set(first)
+        return armatures.put(context, armature, motion, ", ".join(item["text"] for item in texts), fresh=True)
+
+
+class MOTIONRT_OT_preview(_NeedsPackage, bpy.types.Operator):
+    """Play the chosen clip on a figure of its own, beside everything else; Apply takes it away again"""
+
+    bl_idname, bl_label = "motionrt.preview", "Preview"
+    bl_options = {"REGISTER", "UNDO"}
+    index: IntProperty(name="Hit", default=-1)
+
+    def work(self, context: bpy.types.Context) -> str:
+        """On the preview figure, at the 3D cursor."""
+        from . import armatures, preview
+
+        motion, name = _found(context, self.index)
+        active = context.active_object
+        ghost = preview.figure(context)
+        said = armatures.put(context, ghost, motion, f"preview of {name}", fresh=True)
+        preview.select(context, active)
+        return said
+
+
+def _found(context: bpy.types.Context, index: int) -> tuple[Motion, str]:
+    """The motion of a hit, or of the one that is chosen, and its name."""
+    chosen = context.scene.motionrt
+    index = index if index >= 0 else chosen.hit
+    if index >= len(chosen.hits):
+        raise installing.InstallError("search first, then choose a hit")
+    line = chosen.hits[index]
+    gallery = runtime().gallery(_gallery(context))
+    return gallery.motion(line.clip).between(line.start_s, line.end_s).canonical(), line.text or line.clip
+
+
 def _put(context: bpy.types.Context, motion: Motion, name: str) -> str:
     from . import armatures
 
@@ -189,6 +254,9 @@ _CLASSES: tuple[Any, ...] = (
     MOTIONRT_OT_apply,
     MOTIONRT_OT_generate,
     MOTIONRT_OT_walk_to_cursor,
+    MOTIONRT_OT_walk_along,
+    MOTIONRT_OT_generate_timeline,
+    MOTIONRT_OT_preview,
 )
 
 

@@ -35,6 +35,7 @@ class MOTIONRT_PT_panel(bpy.types.Panel):
         self._search(context.scene.motionrt)
         self._generate(context.scene.motionrt)
         self._walk(context.scene.motionrt)
+        self._way(context)
 
     def _target(self, context: bpy.types.Context) -> None:
         active = context.active_object
@@ -51,7 +52,9 @@ class MOTIONRT_PT_panel(bpy.types.Panel):
         row.operator("motionrt.index", text="Index")
         if len(settings.hits):
             box.template_list("MOTIONRT_UL_hits", "", settings, "hits", settings, "hit", rows=5)
-            box.operator("motionrt.apply", icon="POSE_HLT")
+            row = box.row(align=True)
+            row.operator("motionrt.preview", icon="HIDE_OFF")
+            row.operator("motionrt.apply", icon="POSE_HLT")
 
     def _generate(self, settings: bpy.types.PropertyGroup) -> None:
         box = self.layout.box()
@@ -67,6 +70,16 @@ class MOTIONRT_PT_panel(bpy.types.Panel):
         row.prop(settings, "speed")
         row.prop(settings, "extend")
         box.operator("motionrt.walk_to_cursor", icon="PIVOT_CURSOR")
+
+    def _way(self, context: bpy.types.Context) -> None:
+        box = self.layout.box()
+        box.prop(context.scene.motionrt, "path")
+        row = box.row()
+        row.enabled = context.scene.motionrt.path is not None
+        row.operator("motionrt.walk_along", icon="CURVE_PATH")
+        row = box.row()
+        row.enabled = len(context.scene.timeline_markers) > 0
+        row.operator("motionrt.generate_timeline", icon="MARKER_HLT")
 
 
 _CLASSES = (MOTIONRT_UL_hits, MOTIONRT_PT_panel)

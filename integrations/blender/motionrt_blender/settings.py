@@ -31,10 +31,16 @@ class MotionrtSettings(bpy.types.PropertyGroup):
     seconds: FloatProperty(name="Seconds", default=4.0, min=0.5, max=8.0)
     seed: IntProperty(name="Seed", default=1, min=0)
     speed: FloatProperty(name="Speed", default=1.2, min=0.3, max=2.0, description="Metres per second")
+    path: PointerProperty(
+        name="Path",
+        type=bpy.types.Object,
+        poll=lambda _settings, thing: thing.type == "CURVE",
+        description="A curve of the scene to walk along, or that a timeline keeps to",
+    )
     extend: BoolProperty(
         name="Go on from here",
         default=True,
-        description="Walk on from the pose at the current frame, in the same action; otherwise begin a new action",
+        description="Walk on from the pose at the current frame, after the keys before it; else in a new action",
     )
 
 

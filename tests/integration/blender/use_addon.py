@@ -43,6 +43,43 @@ scene.frame_set(1)
 bpy.ops.motionrt.apply(index=0)
 seen["applied"] = bpy.context.active_object.animation_data.action.name
 
+first = bpy.context.active_object
+bpy.ops.motionrt.preview(index=1)
+seen["still_active"] = bpy.context.active_object is first
+ghost = bpy.data.objects["motionrt preview"]
+seen["previewed"] = [len(ghost.children), len(ghost.children[0].data.vertices), ghost.animation_data.action.name]
+bpy.ops.motionrt.apply(index=0)
+seen["preview_gone"] = "motionrt preview" not in bpy.data.objects
+
+scene.frame_set(30)
+kept = bpy.context.active_object.animation_data.action
+kept_range = list(kept.frame_range)
+scene.cursor.location = (0.5, -3.0, 0.0)
+bpy.ops.motionrt.walk_to_cursor()
+walked = bpy.context.active_object.animation_data.action
+seen["kept"] = [walked is not kept, list(kept.frame_range) == kept_range, kept.use_fake_user]
+
+curve = bpy.data.curves.new("way", "CURVE")
+curve.dimensions = "3D"
+line = curve.splines.new("POLY")
+line.points.add(2)
+for point, place in zip(line.points, ((0, 0), (0, -3), (2, -4)), strict=True):
+    point.co = (*place, 0, 1)
+way = bpy.data.objects.new("way", curve)
+way.location = (1, 0, 0)
+bpy.context.collection.objects.link(way)
+scene.motionrt.path = way
+scene.frame_set(1)
+bpy.ops.motionrt.walk_along()
+last = round(bpy.context.active_object.animation_data.action.frame_range[1])
+seen["along"] = [joints(frame)["pelvis"] for frame in range(1, last + 1)]
+
+for frame, name in ((11, "walk forward"), (71, "a person walks forward"), (131, "end")):
+    scene.timeline_markers.new(name, frame=frame)
+bpy.ops.motionrt.generate_timeline(seed=1)
+action = bpy.context.active_object.animation_data.action
+seen["timeline"] = [action.name, list(action.frame_range), [joints(frame)["pelvis"] for frame in (11, 71, 130)]]
+
 try:
     bpy.ops.motionrt.generate(prompt="  ", seconds=2.0)
 except RuntimeError as error:
