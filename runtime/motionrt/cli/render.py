@@ -7,6 +7,8 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from motionrt.cli.console import Progress, print_json, working
 from motionrt.cli.options import add_json, add_models, add_output, command, runtime
 from motionrt.cli.reading import add_reading, read_motion
@@ -14,8 +16,10 @@ from motionrt.cli.reading import add_reading, read_motion
 if TYPE_CHECKING:
     from motionrt.rendering import Look, TakeLike
 
+FLOOR = 0.05  # metres below which a point of a cloud is floor
 HELP = """draw motions: a filmstrip (.png), an animation (.gif) or a video (.mp4)
-Left limbs are blue, right limbs red. A script (.yaml) is performed and drawn with its paths and keypoints.
+Left limbs are blue, right limbs red. A script (.yaml) is performed and drawn with its paths, keypoints
+and furniture.
 Needs: pip install "motionrt[render]"; for .mp4 the program ffmpeg, too.
 
 examples:
@@ -117,8 +121,25 @@ def _colours(given: list[str]) -> dict[str, str]:
 def _given(arguments: argparse.Namespace, name: str) -> TakeLike:
     """The motion of a file; a script is performed."""
     if Path(name).suffix.lower() in {".yaml", ".yml"}:
-        return runtime(arguments).play(name, progress=Progress())
+        return _played(arguments, name)
     return read_motion(arguments, name)
+
+
+def _played(arguments: argparse.Namespace, name: str) -> TakeLike:
+    """What a script plays, with its paths and keypoints, its furniture and the ground of its scene."""
+    from dataclasses import replace
+
+    from motionrt.locomotion import Script, load_cloud
+    from motionrt.rendering.takes import take_of
+
+    script = Script.read(name)
+    take = take_of(runtime(arguments).play(script, progress=Progress()))
+    if script.cloud is not None:
+        points = load_cloud(script.cloud).points
+        take = replace(take, things=points[points[:, 1] > FLOOR])
+    if script.scene is not None and script.scene.floor:
+        take = replace(take, areas=[np.array(outline, np.float32) for outline in script.scene.floor])
+    return take
 
 
 def _size(text: str) -> tuple[int, int]:

@@ -29,7 +29,7 @@ class Canvas:
         self.width, self.height, self.fine, self.colours = width, height, fine, colours
         self.image = pillow("Image").new("RGB", (width * fine, height * fine), colours.rgb("background"))
         self._pen = pillow("ImageDraw").Draw(self.image)
-        self._texts: list[tuple[float, float, str, float, str, str]] = []
+        self._texts: list[tuple[float, float, str, float, str, str, bool]] = []
 
     def polygon(self, points: Floats, colour: str) -> None:
         """Fill a polygon ``(N, 2)``."""
@@ -70,16 +70,30 @@ class Canvas:
             image = pillow("Image")
             self.image.paste(image.fromarray(sprite.rgb), (sprite.left, sprite.top), image.fromarray(sprite.mask))
 
-    def text(self, x: float, y: float, words: str, size: float, colour: str = "text", anchor: str = "la") -> None:
-        """Write words at a pixel of the image; ``size`` in pixels of the result, ``anchor`` as Pillow has it."""
-        self._texts.append((x / self.fine, y / self.fine, words, size, colour, anchor))
+    def text(
+        self,
+        x: float,
+        y: float,
+        words: str,
+        size: float,
+        colour: str = "text",
+        anchor: str = "la",
+        *,
+        halo: bool = False,
+    ) -> None:
+        """Write words at a pixel of the image; ``size`` in pixels of the result, ``anchor`` as Pillow has it.
+
+        A ``halo`` of the background keeps words readable that stand before something.
+        """
+        self._texts.append((x / self.fine, y / self.fine, words, size, colour, anchor, halo))
 
     def finished(self) -> Any:
         """The picture, shrunk, with its texts: a ``PIL.Image`` in RGB."""
         small = self.image.reduce(self.fine) if self.fine > 1 else self.image
         pen = pillow("ImageDraw").Draw(small)
-        for x, y, words, size, colour, anchor in self._texts:
-            pen.text((x, y), words, fill=self.colours.rgb(colour), font=font(size), anchor=anchor)
+        for x, y, words, size, colour, anchor, halo in self._texts:
+            around = {"stroke_width": 2, "stroke_fill": self.colours.rgb("floor")} if halo else {}
+            pen.text((x, y), words, fill=self.colours.rgb(colour), font=font(size), anchor=anchor, **around)
         return small
 
 

@@ -13,10 +13,12 @@ from motionrt.rendering.framing import cameras
 from motionrt.rendering.look import Look
 from motionrt.rendering.poses import Poses, along_the_way
 from motionrt.rendering.scenery import paint
+from motionrt.rendering.solids import Floats
 from motionrt.rendering.strip import FINE, WIDTH
 from motionrt.rendering.takes import Take
 
 _ASPECT, _PALEST = 0.5, 0.55
+_HEAD = 0.35  # of the height of a character
 _FROM_ABOVE = 0.9  # sine of the elevation, from which times stand beside the figures
 
 
@@ -50,17 +52,35 @@ def _place(take: Take, look: Look, width: int, height: int) -> Any:
 
 
 def _words(canvas: Canvas, camera: Camera, take: Take, poses: Poses, size: float) -> None:
-    """Words above the heads; of two that would touch only the later one."""
+    """Words above the heads, on nobody's head; of two that would touch only the later one."""
     taken: list[tuple[float, float, float]] = []
-    for frame, words in zip(poses.frames[::-1], poses.words[::-1], strict=True):
-        joints = camera.project(take.outline(frame))[0]
-        x, y = (
-            float(joints[0, 0]),
-            float(joints[:, 1].min()) - (0.24 if take.character is None else 0.08) * camera.scale,
-        )
+    outlines = [camera.project(take.outline(frame))[0] for frame in poses.frames.tolist()]
+    heads = np.array([_head(outline, camera, take) for outline in outlines])
+    for joints, words in zip(outlines[::-1], poses.words[::-1], strict=True):
+        above = 0.24 if take.character is None else 0.08
+        x, y = float(joints[0, 0]), float(joints[:, 1].min()) - above * camera.scale
         if camera.turn[2][1] > _FROM_ABOVE:
             x, y = float(joints[:, 0].max()) + 0.45 * camera.scale, float(joints[0, 1])
         half = 0.5 * (font(size).getlength(words) + size) * canvas.fine
-        if words and all(abs(x - a) > half + wide or abs(y - b) > 1.3 * size * canvas.fine for a, b, wide in taken):
+        tall = size * canvas.fine
+        free = all(abs(x - a) > half + wide or abs(y - b) > 1.3 * tall for a, b, wide in taken)
+        if words and free and not _covers((x - half, y - tall, x + half, y), heads):
             taken.append((x, y, half))
-            canvas.text(x, y, words, size, "faint", "ms")
+            canvas.text(x, y, words, size, "faint", "ms", halo=True)
+
+
+def _head(outline: Floats, camera: Camera, take: Take) -> tuple[float, float, float, float]:
+    """Pixels left, top, right, bottom of the head of somebody with that outline ``(N, 3)``, a little less of it."""
+    top, low = float(outline[:, 1].min()), float(outline[:, 1].max())
+    if take.character is None:
+        x, top = float(outline[outline[:, 1].argmin(), 0]), top - 0.16 * camera.scale
+        return x - 0.1 * camera.scale, top, x + 0.1 * camera.scale, top + 0.3 * camera.scale
+    upper = outline[outline[:, 1] < top + _HEAD * (low - top), 0]
+    return float(upper.min()), top, float(upper.max()), top + _HEAD * (low - top)
+
+
+def _covers(box: tuple[float, float, float, float], heads: Floats) -> bool:
+    """Whether a box of pixels lies on any of heads ``(N, 4)``."""
+    left, top, right, bottom = box
+    apart = (heads[:, 0] > right) | (heads[:, 2] < left) | (heads[:, 1] > bottom) | (heads[:, 3] < top)
+    return not bool(apart.all())

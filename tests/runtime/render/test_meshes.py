@@ -90,3 +90,14 @@ def test_a_character_is_drawn_in_its_colours_instead_of_the_figure(tmp_path: Pat
         blue = (pixels[..., 2] > pixels[..., 0] + 60) & (pixels[..., 2] > pixels[..., 1] + 20)
         assert green.sum() > 100
         assert blue.sum() == 0
+
+
+def test_no_words_of_a_way_stand_on_a_head() -> None:
+    pytest.importorskip("PIL", reason="Pillow, of the extra render, is not installed")
+    from motionrt.rendering.places import _covers
+
+    heads = np.array([[10.0, 10, 20, 30], [50, 50, 60, 60]])
+    assert _covers((15, 0, 30, 12), heads)
+    assert _covers((55, 55, 56, 56), heads)
+    assert not _covers((21, 0, 49, 100), heads)
+    assert not _covers((0, 0, 100, 9), heads)
