@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import json
+import os
 import shutil
 import subprocess
 import time
@@ -13,6 +14,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+PATIENCE = float(os.environ.get("MOTIONRT_PATIENCE", "1"))
 FLAGS = (
     "--headless=new",
     "--no-sandbox",
@@ -52,23 +54,33 @@ class Page:
     def __init__(self, address: str) -> None:
         from websockets.sync.client import connect
 
-        self._socket = connect(address, max_size=None, open_timeout=20)
+        self._socket = connect(address, max_size=None, open_timeout=20, ping_interval=None)
         self._number = 0
         self.events: list[dict[str, Any]] = []
+        self.dialogs: list[str] = []
         for domain in ("Page", "Runtime", "Network", "Log"):
             self.call(f"{domain}.enable")
 
     def call(self, method: str, **parameters: Any) -> dict[str, Any]:
         """One command of the protocol, and its result."""
         self._number += 1
-        self._socket.send(json.dumps({"id": self._number, "method": method, "params": parameters}))
+        asked = self._number
+        self._socket.send(json.dumps({"id": asked, "method": method, "params": parameters}))
         while True:
             answer = json.loads(self._socket.recv(timeout=240))
-            if answer.get("id") == self._number:
+            if answer.get("id") == asked:
                 if "error" in answer:
                     raise RuntimeError(f"{method}: {answer['error']}")
                 return dict(answer["result"])
             self.events.append(answer)
+            if answer.get("method") == "Page.javascriptDialogOpening":  # "leave this page?" waits for an answer
+                self.dialogs.append(answer["params"]["type"])
+                self._number += 1
+                self._socket.send(
+                    json.dumps(
+                        {"id": self._number, "method": "Page.handleJavaScriptDialog", "params": {"accept": True}}
+                    )
+                )
 
     def run(self, script: str) -> Any:
         """The value of a JavaScript expression."""
@@ -139,7 +151,7 @@ class Page:
 
     def press(self, key: str) -> None:
         """One key."""
-        code = {"Enter": 13, " ": 32}.get(key, ord(key[0].upper()))
+        code = {"Enter": 13, " ": 32, "ArrowLeft": 37, "ArrowRight": 39}.get(key, ord(key[0].upper()))
         for kind in ("keyDown", "keyUp"):
             self.call(
                 "Input.dispatchKeyEvent",
@@ -158,7 +170,8 @@ class Page:
         return png
 
     def close(self) -> None:
-        """Close the tab."""
+        """Close the tab, whatever the page has to say about it."""
+        self.run("addEventListener('beforeunload', event => event.stopImmediatePropagation(), true)")
         self.call("Page.close")
         self._socket.close()
 
@@ -232,8 +245,8 @@ def browser(folder: Path, *flags: str) -> Iterator[Browser]:
 
 
 def wait_until(true: Callable[[], Any], seconds: float, what: str) -> Any:
-    """Wait for something to become true, and return it."""
-    end = time.monotonic() + seconds
+    """Wait for something to become true, and return it; ``MOTIONRT_PATIENCE`` times as long on a busy machine."""
+    end = time.monotonic() + seconds * PATIENCE
     while time.monotonic() < end:
         found = true()
         if found:

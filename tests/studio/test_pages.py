@@ -10,7 +10,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from chromium import Browser, Page, wait_until
+from characters import character
+from chromium import Browser, Page, element, wait_until
+from glb_files import glb, unpack
 from studio_runtime import StudioRuntime
 
 from motionrt.formats import load_motion
@@ -184,11 +186,18 @@ def click_for(page: Page, name: str, text: str) -> None:
     wait_until(answered, 90, text)
 
 
-def upload(page: Page, number: int, *files: Path) -> None:
-    """Choose files for the ``number``-th upload button of the page, as a user does in the browser's dialogue."""
+def upload_for(page: Page, button: str, file: Path) -> None:
+    """Choose a file for the upload button with a text."""
+    page.wait(
+        "(b => { for (let s = 0; b && s < 4; s++, b = b.parentElement) {"
+        " const f = b.querySelector('input[type=file]'); if (f) { f.id = 'chosen-now'; return true; } }"
+        " return false; })"
+        f"({element(button)})"
+    )
     root = page.call("DOM.getDocument")["root"]["nodeId"]
-    inputs = page.call("DOM.querySelectorAll", nodeId=root, selector="input[type=file]")["nodeIds"]
-    page.call("DOM.setFileInputFiles", nodeId=inputs[number], files=[str(file) for file in files])
+    node = page.call("DOM.querySelector", nodeId=root, selector="#chosen-now")["nodeId"]
+    page.call("DOM.setFileInputFiles", nodeId=node, files=[str(file)])
+    page.run("document.querySelector('#chosen-now').removeAttribute('id')")
 
 
 def test_a_plan_is_drafted_generated_and_written(studio: Callable[[], Page], tmp_path: Path) -> None:
@@ -220,6 +229,7 @@ def test_a_reload_brings_the_work_back_and_undo_takes_it_back(studio: Callable[[
     page.wait_text("1. walk forward")
     page.call("Page.reload")
     page.wait_text("wave the right hand")
+    assert page.dialogs == ["beforeunload"]  # the work was not saved
     page.tab("Plan")
     page.wait_text("1. walk forward")
     page.press("z")
@@ -242,16 +252,92 @@ def test_clips_and_projects_are_opened_and_saved(studio: Callable[[], Page], wal
     page = studio()
     page.tab("Open")
     page.wait_text("Begin with any of these")
-    upload(page, -1, walk_file)
+    upload_for(page, "Open clips", walk_file)
     page.wait_text("my walk")
     page.click("Download as project")
     file = wait_until(lambda: next(tmp_path.glob("*.zip"), None), 20, "a project")
     wait_until(lambda: zipfile.is_zipfile(file), 10, "all of it")
     other = studio()
     other.tab("Open")
-    upload(other, -1, file)
+    upload_for(other, "Open clips", file)
     other.wait_text("my walk")
     bad = tmp_path / "bad.zip"
     bad.write_bytes(b"PK nothing")
-    upload(other, -1, bad)
+    upload_for(other, "Open clips", bad)
     other.wait_text("no ZIP file that can be read")
+
+
+def drop(page: Page, *files: Path) -> None:
+    """Let files fall onto the picture, as a user does."""
+    for kind in ("dragEnter", "dragOver", "drop"):
+        page.call(
+            "Input.dispatchDragEvent",
+            type=kind,
+            x=FLOOR[0],
+            y=FLOOR[1],
+            data={"items": [], "files": [str(file) for file in files], "dragOperationsMask": 1},
+        )
+
+
+def test_several_files_that_are_dropped_are_opened(studio: Callable[[], Page], walk_file: Path, tmp_path: Path) -> None:
+    other = tmp_path / "other walk.bvh"
+    other.write_bytes(walk_file.read_bytes())
+    page = studio()
+    drop(page, walk_file, other)
+    page.wait_text("my walk")
+    page.wait_text("other walk")
+
+
+def test_motion_is_seen_and_exported_on_a_character_of_the_users_own(
+    studio: Callable[[], Page], tmp_path: Path, walk_file: Path
+) -> None:
+    hero = glb(character("mixamo")).save(tmp_path / "hero.glb")
+    page = studio()
+    drop(page, walk_file)
+    page.wait_text("my walk")
+    page.tab("Open")
+    upload_for(page, "Open a character", hero)
+    page.wait_text("Your character is on the stage")
+    page.tab("Export")
+    page.wait_text("On your character")
+    click_for(page, "Download", "Downloaded")
+    file = wait_until(lambda: next(tmp_path.glob("my*.glb"), None), 20, "a download")
+    names = {node.get("name") for node in unpack(wait_until(file.read_bytes, 10, "all of it"))[0]["nodes"]}
+    assert "mixamorig:Hips" in names
+    page.tab("Open")
+    upload_for(page, "Open a character", walk_file)
+    page.wait_text("a character to look at is one of")
+
+
+def test_a_performance_that_is_not_saved_is_not_thrown_away_unasked(studio: Callable[[], Page]) -> None:
+    page = studio()
+    page.tab("Direct")
+    click_for(page, "Walk", "click: Walk here")
+    page.click_at(*FLOOR)
+    page.wait_text("walk to ")
+    click_for(page, "Perform", "s of motion in")
+    page.wait_text("not saved")
+    page.click("Perform")
+    page.wait_text("performance has not been saved")
+    page.click("Keep both")
+    page.wait_text("performance 2")
+    page.tab("Open")
+    click_for(page, "Download as project", "Downloaded")
+    wait_until(lambda: "not saved" not in page.text(), 10, "clips that are saved")
+
+
+def test_space_arrows_and_numbers_play_step_and_go_except_while_somebody_writes(view: Page) -> None:
+    view.click_at(*FLOOR)
+    if "Pause" in view.text():
+        view.press(" ")
+    view.wait_text("Play\n")
+    view.press("0")
+    wait_until(lambda: frame(view) == 1, 10, "frame 1")
+    view.press("ArrowRight")
+    wait_until(lambda: frame(view) == 2, 10, "frame 2")
+    view.press("ArrowLeft")
+    wait_until(lambda: frame(view) == 1, 10, "frame 1")
+    view.press("5")
+    wait_until(lambda: 44 <= frame(view) <= 47, 10, "the middle")
+    view.press(" ")
+    view.wait_text("Pause\n")

@@ -34,7 +34,7 @@ def run(arguments: argparse.Namespace) -> int:
 
     opened = runtime(arguments)
     opened.gallery(arguments.gallery)  # complain now, not in the browser
-    show = show_of(arguments.clips, scene=arguments.scene)
+    show = show_of(arguments.clips, scene=arguments.scene, character=arguments.character)
     for problem in show.problems:
         say(f"motionrt: left out: {problem}")
     workshop = Workshop(opened, arguments.gallery, arguments.folder, local=arguments.host in LOOPBACK)

@@ -32,6 +32,7 @@ def add(commands: Any) -> None:
 def add_page(parser: argparse.ArgumentParser) -> None:
     """The options of every page."""
     parser.add_argument("--scene", type=Path, metavar="FILE", help="draw a mesh, a map, or a script with its scene")
+    parser.add_argument("--character", type=Path, metavar="FILE", help="who is seen: your own character (.glb, .vrm)")
     parser.add_argument(
         "--host", default="127.0.0.1", metavar="ADDR", help="0.0.0.0 serves others, too (default: %(default)s)"
     )
@@ -51,7 +52,13 @@ def shown(arguments: argparse.Namespace) -> Show:
     """What the arguments ask to show."""
     from motionrt.studio.showing import show_of
 
-    found = show_of(arguments.clips, scene=arguments.scene, path=arguments.path, layout=arguments.layout)
+    found = show_of(
+        arguments.clips,
+        scene=arguments.scene,
+        path=arguments.path,
+        layout=arguments.layout,
+        character=arguments.character,
+    )
     for problem in found.problems:
         say(f"motionrt: left out: {problem}")
     return found

@@ -20,6 +20,8 @@ from motionrt.rigs.skin import Skin
 from motionrt.rigs.target import Rig, RigMotion
 from motionrt.untrusted.files import as_path
 
+_WHOLE = (".glb", ".vrm")
+
 
 @dataclass(frozen=True, eq=False)
 class Character:
@@ -30,12 +32,14 @@ class Character:
         rig: its joints.
         skin: its mesh, in the unit and axes of the file.
         file: where it came from.
+        content: of the file, where that is all there is of it (``.glb``, ``.vrm``).
     """
 
     name: str
     rig: Rig
     skin: Skin
     file: Path
+    content: bytes = b""
 
     def __repr__(self) -> str:
         return f"Character('{self.name}', {len(self.rig.clip.names)} joints, {len(self.skin.faces)} triangles)"
@@ -107,4 +111,6 @@ def load_character(path: str | Path) -> Character:
             "File > Export > glTF 2.0"
         )
     rig = load_target(file)
-    return Character(file.stem, rig, read_skin(open_glb(file)), file)
+    document = open_glb(file)
+    whole = file.read_bytes() if file.suffix.lower() in _WHOLE else b""
+    return Character(file.stem, rig, read_skin(document), file, whole)

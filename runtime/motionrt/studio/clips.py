@@ -43,6 +43,7 @@ class Clip:
         colour: red, green and blue, 0 to 255.
         note: one line about it, as in a score.
         made: whether it is somebody's work, which a search leaves on the stage, and not a hit.
+        dear: whether it took more than a text to make: a performance, a plan.
     """
 
     name: str
@@ -50,6 +51,7 @@ class Clip:
     colour: Colour
     note: str = ""
     made: bool = False
+    dear: bool = False
 
     @cached_property
     def quaternions(self) -> FloatArray:
@@ -63,13 +65,7 @@ class Clip:
 
     def at(self, time: float) -> tuple[FloatArray, FloatArray]:
         """Places ``(22, 3)`` and rotations ``(22, 4)`` wxyz of the bones at a time; the ends are held."""
-        last = self.motion.frames - 1
-        place = min(max(time * self.motion.fps, 0.0), float(last))
-        before = int(place)
-        after, share = min(before + 1, last), np.float32(place - before)
-        joints = self.joints[before] * (1 - share) + self.joints[after] * share
-        turns = self.quaternions[before] * (1 - share) + self.quaternions[after] * share
-        return joints, np.asarray(turns / np.linalg.norm(turns, axis=1, keepdims=True), dtype=np.float32)
+        return between(self.joints, self.quaternions, self.motion.fps, time)
 
     @cached_property
     def footsteps(self) -> tuple[FloatArray, FloatArray]:
@@ -85,6 +81,17 @@ class Clip:
         """``(2, 3)`` lowest and highest corner of all that the joints touch, metres."""
         points = self.motion.positions().reshape(-1, 3)
         return np.stack([points.min(axis=0), points.max(axis=0)])
+
+
+def between(joints: FloatArray, quaternions: FloatArray, fps: float, time: float) -> tuple[FloatArray, FloatArray]:
+    """Places ``(J, 3)`` and rotations ``(J, 4)`` at a time, of frames ``(F, J, 3)`` and ``(F, J, 4)``; held at ends."""
+    last = len(joints) - 1
+    place = min(max(time * fps, 0.0), float(last))
+    before = int(place)
+    after, share = min(before + 1, last), np.float32(place - before)
+    places = joints[before] * (1 - share) + joints[after] * share
+    turns = quaternions[before] * (1 - share) + quaternions[after] * share
+    return places, np.asarray(turns / np.linalg.norm(turns, axis=1, keepdims=True), dtype=np.float32)
 
 
 def continuous(quaternions: FloatArray) -> FloatArray:

@@ -190,7 +190,7 @@ class DirectPanel:
     def _tell(self) -> None:
         """Show the draft."""
         draft = self.draft
-        self._session.markers.draw(draft)
+        self._session.markers.draw(draft, start=bool(self._tool or draft.actions or draft.path))
         self._session.reveal_scene(shown=True)
         self._told.content = f"click: **{self._tool}**" if self._tool else "choose a button, then click in the picture"
         rows = [f"{number}. {drafts.described(step)}" for number, step in enumerate(draft.actions, 1)]
@@ -213,7 +213,10 @@ class DirectPanel:
                 found.append((act.name, runtime.pose(act.keypoints, act.heading).motion, "preview"))
             return found
 
-        self._session.work("finding the poses", work, lambda rows, _: self._session.present(rows, world=True))
+        self._session.work("finding the poses", work, self._previewed)
+
+    def _previewed(self, rows: list[tuple[str, Motion, str]], _: float) -> None:
+        self._session.present(rows, world=True, made=False)
 
     def perform(self) -> None:
         """Let a character do it."""
@@ -243,7 +246,7 @@ class DirectPanel:
         if measures.off_path_m is not None:
             words.append(f"{100 * measures.off_path_m:.0f} cm off the path")
         self._report.content = "; ".join(words)
-        self._session.present([("performance", motion, words[0])], world=True)
+        self._session.present([("performance", motion, words[0])], world=True, dear=True)
 
     def script(self) -> str:
         """The draft as YAML."""

@@ -18,6 +18,7 @@ from typing import Any
 from urllib.parse import parse_qs, urlsplit
 
 from motionrt.limits import limits
+from motionrt.studio.page_script import with_script
 from motionrt.studio.traffic import metered
 
 ANY = ("0.0.0.0", "::", "")
@@ -145,7 +146,7 @@ def serving_through(gate: Gate, serve: Callable[..., Any]) -> Callable[..., Any]
             if refused is not None:
                 return connection.respond(*refused)
             response = answer(connection, request)
-            return response if response is None else gate.admit(request, response)
+            return response if response is None else gate.admit(request, with_script(request.path, response))
 
         async def handle(connection: Any) -> None:
             gate.windows += 1

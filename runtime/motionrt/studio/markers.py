@@ -46,9 +46,10 @@ class Markers:
     def __init__(self, client: Any) -> None:
         self._client = client
         self._nodes: list[Any] = []
+        self._start_wanted = True
 
-    def draw(self, draft: Draft) -> None:
-        """The start and all steps of a draft, instead of what was drawn before."""
+    def draw(self, draft: Draft, *, start: bool = True) -> None:
+        """The start, if it is wanted, and all steps of a draft, instead of what was drawn before."""
         for node in self._nodes:
             node.remove()
         scene = self._client.scene
@@ -57,6 +58,7 @@ class Markers:
             place = (draft.start.x, _LIFT, draft.start.z)
             self._nodes = [scene.add_mesh_simple("/draft/start", *shapes.arrow(), color=START, **_FLAT)]
             self._nodes[0].position, self._nodes[0].wxyz = place, turn
+            self._start_wanted = self._nodes[0].visible = start
             before = (draft.start.x, draft.start.z)
             for index, action in enumerate(draft.actions):
                 self._step(f"/draft/{index}", index + 1, action, before)
@@ -66,8 +68,8 @@ class Markers:
 
     def show(self, *, shown: bool) -> None:
         """Show or hide all marks."""
-        for node in self._nodes:
-            node.visible = shown
+        for number, node in enumerate(self._nodes):
+            node.visible = shown and (number > 0 or self._start_wanted)
 
     def draw_path(self, points: FloatArray, name: str = "/path") -> Any:
         """A path on the ground, ``(N, 2)`` x and z."""

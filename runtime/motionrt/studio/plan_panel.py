@@ -185,7 +185,7 @@ class PlanPanel:
         found = misses(motion, draft.constraints())
         rows = [f"* {m.what} at {m.time:g} s: {m.cm:.1f} cm off" for m in found]
         self._report.content = "\n".join([f"generated in {seconds:.1f} s", "", *rows])
-        self._session.present([("plan", motion, f"{len(draft.lines)} texts")], world=True)
+        self._session.present([("plan", motion, f"{len(draft.lines)} texts")], world=True, dear=True)
 
     def open(self, file: Path) -> None:
         """Take over a plan that was uploaded."""

@@ -48,6 +48,9 @@ def project_bytes(state: State) -> bytes:
         if state.plan.lines:
             archive.writestr(PLAN, state.plan.text())
         sheet = {"version": _VERSION, "layout": state.layout, "clips": rows}
+        if state.character is not None and state.character.content:
+            sheet["character"] = f"character-{plain_name(state.character.file.name)}"
+            archive.writestr(str(sheet["character"]), state.character.content)
         archive.writestr(SHEET, json.dumps(sheet, ensure_ascii=True, indent=1))
     return out.getvalue()
 

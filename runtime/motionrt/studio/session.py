@@ -57,6 +57,7 @@ class Session:
         self.follow = False
         self._closed = threading.Event()
         self._target: FloatArray | None = None
+        self.stage.character = show.character
         if show.layout is not None:
             self.stage.look.layout = show.layout
         self.markers = Markers(client)
@@ -65,6 +66,8 @@ class Session:
         self.scenery: Scenery | None = None
         with client.atomic():
             self._build()
+        if client.camera.image_width > 0 and (self.stage.clips or self.scenery is not None):
+            self.frame_all()
         for problem in show.problems:
             self.complain(problem, seconds=None)
 
@@ -84,6 +87,10 @@ class Session:
 
     def chosen(self) -> None:
         """Another clip is selected."""
+
+    def unsaved(self) -> Sequence[Clip]:
+        """Clips on the stage that somebody made and has not saved; in the studio there may be some."""
+        return ()
 
     def show(self, clips: Sequence[Clip], *, rewind: bool = False) -> None:
         """Put these clips on the stage instead of those that are there."""

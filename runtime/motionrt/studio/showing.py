@@ -6,7 +6,12 @@ from collections.abc import Sequence
 from difflib import get_close_matches
 from pathlib import Path
 
+import numpy as np
+
 from motionrt.errors import InvalidInputError
+from motionrt.formats import Character, load_character
+from motionrt.motion import SMPL24, Motion
+from motionrt.studio.bodies import VERTICES
 from motionrt.studio.clips import load_clips
 from motionrt.studio.draft import Draft
 from motionrt.studio.layout import AS_RECORDED, LAYOUTS, SIDE_BY_SIDE
@@ -15,7 +20,12 @@ from motionrt.studio.windows import Show
 
 
 def show_of(
-    clips: Sequence[Path], *, scene: Path | None = None, path: Path | None = None, layout: str | None = None
+    clips: Sequence[Path],
+    *,
+    scene: Path | None = None,
+    path: Path | None = None,
+    layout: str | None = None,
+    character: Path | None = None,
 ) -> Show:
     """Read everything that is to be shown.
 
@@ -25,8 +35,10 @@ def show_of(
         path: CSV of x and z.
         layout: of :data:`motionrt.studio.layout.LAYOUTS`; by default as recorded where there is a scene, a path or only
             one clip, else side by side.
+        character: a GLB or VRM with its mesh: who is seen instead of the figure.
 
     Raises:
+        RigError: the character is no humanoid.
         InvalidInputError: no clip can be read, or the layout is unknown.
         ScriptError, SceneError, FormatError, MotionFileNotFoundError: scene or path cannot be read.
     """
@@ -44,7 +56,25 @@ def show_of(
         draft=draft,
         path=None if path is None else GroundPath.from_csv(path).points,
         layout=chosen or (AS_RECORDED if alone else SIDE_BY_SIDE),
+        character=None if character is None else checked_character(character),
     )
+
+
+def checked_character(file: Path) -> Character:
+    """A character that can be shown.
+
+    Raises:
+        RigError: it is no humanoid.
+        InvalidInputError, FormatError, MotionFileNotFoundError: it cannot be read, or has too many vertices.
+    """
+    found = load_character(file)
+    if len(found.skin.joints) > VERTICES:
+        raise InvalidInputError(
+            f"{file.name} has {len(found.skin.joints):,} vertices; the page shows {VERTICES:,}: export a simpler mesh"
+        )
+    still = np.tile(np.eye(3, dtype=np.float32), (2, len(SMPL24.names), 1, 1))
+    found.dressed(Motion(still, np.array([[0, 0.95, 0]] * 2, np.float32), 30.0))
+    return found
 
 
 def checked_layout(name: str) -> str:

@@ -11,15 +11,17 @@ from typing import Any
 
 import numpy as np
 
+from motionrt.errors import MotionRTError
+from motionrt.formats import Character
 from motionrt.motion.skeleton import FloatArray
 from motionrt.studio import layout, shapes
+from motionrt.studio.bodies import Body, CharacterBody, FigureBody
 from motionrt.studio.clips import Clip
-from motionrt.studio.figure import figure_of
 
 SHADOW, STEP_HEIGHT, TRAIL_HEIGHT = 0.004, 0.010, 0.007  # metres above the ground, so that nothing flickers
 BLOT = ((0.32, 0.0), (0.24, 0.001), (0.15, 0.002))  # radius and lift of its discs, metres
 SHADOW_COLOUR = (40, 44, 56)
-TITLE_ABOVE = 0.28  # metres above the highest joint, so that no name covers a head
+TITLE_ABOVE = 0.08  # metres above the head
 
 
 @dataclass
@@ -40,7 +42,7 @@ class Actor:
     clip: Clip
     offset: FloatArray
     root: Any
-    body: Any
+    body: Body
     shadow: Any
     feet: list[Any]
     extras: list[Any] = field(default_factory=list)
@@ -65,6 +67,7 @@ class Stage:
         self.client = client
         self.look = Look()
         self.actors: list[Actor] = []
+        self.character: Character | None = None
         self._spare: list[Actor] = []
         self._count = 0
 
@@ -98,6 +101,28 @@ class Stage:
             self.actors = [kept.get(id(clip)) or self._actor(clip) for clip in clips]
             self.arrange(time)
 
+    def wear(self, character: Character | None, time: float) -> None:
+        """Show all clips on a character of the user's own, or on the figure.
+
+        Raises:
+            RigError: a clip cannot be played on it; what was there stays.
+        """
+        before, clips = self.character, self.clips
+        if character is before:
+            return
+        self.character = character
+        try:
+            with self.client.atomic():
+                new = [self._actor(clip) for clip in clips]
+        except MotionRTError:
+            self.character = before
+            raise
+        for actor in self.actors:
+            self._leave(actor)
+        with self.client.atomic():
+            self.actors = new
+            self.arrange(time)
+
     def arrange(self, time: float) -> None:
         """Place the clips by the layout, and draw what does not move."""
         seen = [actor for actor in self.actors if actor.visible]
@@ -126,7 +151,7 @@ class Stage:
         """Somebody who has left the stage comes back as another; else somebody new."""
         skeleton = clip.motion.skeleton
         for spare in self._spare:
-            if spare.clip.motion.skeleton == skeleton:
+            if spare.body.suits(skeleton, self.character):
                 self._spare.remove(spare)
                 return _recast(spare, clip)
         self._count += 1
@@ -136,19 +161,10 @@ class Stage:
         body, shadow = self._body(f"{name}/body", clip), self._shadow(f"{name}/shadow")
         return Actor(clip, np.zeros(3, np.float32), root, body, shadow, feet)
 
-    def _body(self, name: str, clip: Clip) -> Any:
-        figure = figure_of(clip.motion.skeleton)
-        return self.client.scene.add_mesh_skinned(
-            name,
-            figure.vertices,
-            figure.faces,
-            bone_wxyzs=np.tile([1.0, 0, 0, 0], (len(figure.bones), 1)),
-            bone_positions=figure.bones,
-            skin_weights=figure.weights,
-            color=clip.colour,
-            cast_shadow=True,
-            receive_shadow=False,
-        )
+    def _body(self, name: str, clip: Clip) -> Body:
+        if self.character is None:
+            return FigureBody(self.client.scene, name, clip)
+        return CharacterBody(self.client.scene, name, clip, self.character)
 
     def _shadow(self, name: str) -> Any:
         """A soft blot below the pelvis: three discs on top of each other."""
@@ -207,19 +223,18 @@ class Stage:
 
 
 def _recast(actor: Actor, clip: Clip) -> Actor:
-    for node in (actor.body, *actor.feet):
+    actor.body.play(clip)
+    for node in actor.feet:
         node.color = clip.colour
     return Actor(clip, np.zeros(3, np.float32), actor.root, actor.body, actor.shadow, actor.feet)
 
 
 def _draw(actor: Actor, time: float) -> None:
     joints, turns = actor.clip.at(time)
-    for bone, place, turn in zip(actor.body.bones, joints.tolist(), turns.tolist(), strict=True):
-        bone.position, bone.wxyz = place, turn
+    top = actor.body.pose(joints, turns, time)
     actor.shadow.position = (float(joints[0, 0]), SHADOW, float(joints[0, 2]))
     if actor.title is not None:
-        top = joints[:, 1].max() + TITLE_ABOVE
-        actor.title.position = (float(joints[0, 0]), float(top), float(joints[0, 2]))
+        actor.title.position = (float(joints[0, 0]), top + TITLE_ABOVE, float(joints[0, 2]))
     for label, place in zip(actor.labels, joints.tolist(), strict=False):
         label.position = place
     _draw_feet(actor, time)

@@ -7,6 +7,7 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
+from motionrt.formats import Character
 from motionrt.limits import limits
 from motionrt.studio.clips import Clip
 from motionrt.studio.draft import Draft
@@ -28,6 +29,7 @@ class State:
         draft: the script in the making.
         plan: the plan in the making.
         scenery: the scene around them.
+        character: who is seen instead of the figure.
     """
 
     clips: tuple[Clip, ...] = ()
@@ -35,11 +37,17 @@ class State:
     draft: Draft = field(default_factory=Draft)
     plan: PlanDraft = field(default_factory=PlanDraft)
     scenery: Scenery | None = None
+    character: Character | None = None
 
     @property
     def empty(self) -> bool:
         """Whether there is nothing to lose."""
-        return not self.clips and self.draft == Draft() and self.plan == PlanDraft() and self.scenery is None
+        return (
+            not self.clips
+            and self.draft == Draft()
+            and self.plan == PlanDraft()
+            and (self.scenery is None and self.character is None)
+        )
 
 
 class Past:

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any, TypeVar
+from weakref import WeakSet
 
 import numpy as np
 
 from motionrt.errors import InvalidInputError
+from motionrt.formats import Character
 from motionrt.motion import Motion
 from motionrt.studio.clips import Clip, colour, unique
 from motionrt.studio.direct_panel import DirectPanel
@@ -46,6 +49,7 @@ class StudioSession(Session):
     def __init__(self, client: Any, show: Show, workshop: Workshop) -> None:
         self.workshop = workshop
         self.uploads, self._past = Uploads(), Past()
+        self._saved: WeakSet[Clip] = WeakSet()
         self.jobs = Jobs(workshop.desk, self._progress)
         self._progress_at = 0.0
         super().__init__(client, show)
@@ -93,28 +97,70 @@ class StudioSession(Session):
         keep: bool = False,
         world: bool = False,
         made: bool = True,
+        dear: bool = False,
+        saved: bool = False,
     ) -> None:
-        """Play new motions (name, motion, note) from the start.
+        """Play new motions (name, motion, note) from the start; asks, before unsaved work leaves the stage.
 
         Args:
             motions: what to play.
             keep: leave what is on the stage there.
             world: they stand where they stand; otherwise several are put side by side.
             made: they are somebody's work; hits, which are not, leave all work on the stage.
+            dear: they took more than a text to make.
+            saved: they came from a file.
         """
-        with self.lock:
+
+        def go_on(stay: Sequence[Clip]) -> None:
             self.remember()
-            clips = [clip for clip in self.stage.clips if keep or (clip.made and not made)]
+            clips = list(stay)
             for name, motion, note in motions:
-                clips.append(self.clip(name, motion, clips, note=note, made=made))
+                clips.append(self.clip(name, motion, clips, note=note, made=made, dear=dear))
+            if saved:
+                self._saved.update(clips[len(stay) :])
             self.reveal_scene(shown=world)
             self.put_clips(clips, AS_RECORDED if world or len(clips) < 2 else SIDE_BY_SIDE)
             if not world or self.scenery is None:  # who directs has chosen where to look from
                 self.frame_all()
 
-    def clip(self, name: str, motion: Motion, beside: Sequence[Clip], *, note: str = "", made: bool = True) -> Clip:
+        with self.lock:
+            self.before_losing([clip for clip in self.stage.clips if keep or (clip.made and not made)], go_on)
+
+    def unsaved(self) -> Sequence[Clip]:
+        """Clips on the stage that somebody made and has not saved."""
+        return [clip for clip in self.stage.clips if clip.made and clip not in self._saved]
+
+    def saved(self, *clips: Clip) -> None:
+        """These clips are in a file now."""
+        self._saved.update(clips)
+        self.view.tell_saved()
+
+    def before_losing(self, kept: Sequence[Clip], go_on: Callable[[Sequence[Clip]], None]) -> None:
+        """Ask, if unsaved work that took more than a text is not among the clips that stay; then go on with those."""
+        lost = [clip for clip in self.unsaved() if clip.dear and clip not in kept]
+        if not lost:
+            go_on(kept)
+            return
+        gui = self.client.gui
+        modal = gui.add_modal(f"{', '.join(clip.name for clip in lost)[:60]} has not been saved")
+        with modal:
+            gui.add_markdown("It would leave the stage. Undo (Z) brings it back for as long as this page is open.")
+            for words, stay in (("Keep both", [*lost, *kept]), ("Replace it", list(kept))):
+                button = gui.add_button(words, color=None if words == "Keep both" else "red")
+                button.on_click(self.guarded(partial(_answered, modal, go_on, stay)))
+
+    def clip(
+        self,
+        name: str,
+        motion: Motion,
+        beside: Sequence[Clip],
+        *,
+        note: str = "",
+        made: bool = True,
+        dear: bool = False,
+    ) -> Clip:
         """A clip with a name and a colour that no other has."""
-        return Clip(unique(name, beside), motion, _other_colour(beside), note, made)
+        return Clip(unique(name, beside), motion, _other_colour(beside), note, made, dear)
 
     def put_clips(self, clips: Sequence[Clip], layout: str) -> None:
         """Put these clips on the stage and play them from the start; the camera goes along with long ways."""
@@ -125,7 +171,10 @@ class StudioSession(Session):
 
     def state(self) -> State:
         """What the window holds now."""
-        return State(tuple(self.stage.clips), self.stage.look.layout, self.direct.draft, self.plan.draft, self.scenery)
+        stage = self.stage
+        return State(
+            tuple(stage.clips), stage.look.layout, self.direct.draft, self.plan.draft, self.scenery, stage.character
+        )
 
     def remember(self) -> None:
         """Before a change: what there is now is what undo brings back."""
@@ -146,8 +195,23 @@ class StudioSession(Session):
                 self.set_scenery(state.scenery)
             self.direct.put(state.draft)
             self.plan.put(state.plan)
+            self.stage.wear(state.character, self.clock.time)
             if list(state.clips) != self.stage.clips:
                 self.put_clips(state.clips, state.layout)
+            self.figure_changed()
+
+    def set_character(self, character: Character | None) -> None:
+        """See all clips on a character of the user's own, or on the figure."""
+        with self.lock:
+            if character is not self.stage.character:
+                self.remember()
+                self.stage.wear(character, self.clock.time)
+                self.figure_changed()
+
+    def figure_changed(self) -> None:
+        """Somebody else is seen: panels say so."""
+        self.open.refresh(empty=not self.stage.clips)
+        self.export.refresh()
 
     def take_up(self, state: State) -> None:
         """Go on where a window that was closed left off."""
@@ -227,6 +291,11 @@ class StudioSession(Session):
         self._bar.value = 100 * share
         if words:
             self._task.content = words
+
+
+def _answered(modal: Any, go_on: Callable[[Sequence[Clip]], None], stay: Sequence[Clip], _: object) -> None:
+    modal.close()
+    go_on(stay)
 
 
 def _other_colour(clips: Sequence[Clip]) -> tuple[int, int, int]:

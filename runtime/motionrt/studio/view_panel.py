@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import html
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from motionrt.studio.layout import LAYOUTS
+from motionrt.studio.page_script import UNSAVED
 
 if TYPE_CHECKING:
     from motionrt.studio.clips import Clip
@@ -47,7 +49,8 @@ class ViewPanel:
         self._rows = []
         actors, gui = self._session.stage.actors, self._session.client.gui
         with self._clips:
-            self._rows.append(gui.add_html(legend(actors)))
+            self._legend: Any = gui.add_html(legend(actors, self._session.unsaved()))
+            self._rows.append(self._legend)
             self._selected = None
             if len(actors) > 1:
                 self._rows += [self._switch(actor) for actor in actors]
@@ -56,6 +59,10 @@ class ViewPanel:
                     self._selected = gui.add_dropdown("Selected", names, hint="What buttons mean")
                     self._selected.on_update(self._session.guarded(lambda _: self._session.chosen()))
                     self._rows.append(self._selected)
+
+    def tell_saved(self) -> None:
+        """After clips were saved."""
+        self._legend.content = legend(self._session.stage.actors, self._session.unsaved())
 
     def chosen(self) -> Clip | None:
         """The clip that is selected among several; None without a choice."""
@@ -93,18 +100,19 @@ class ViewPanel:
             session.frame_all()
 
 
-def legend(actors: list[Actor]) -> str:
-    """Colour, name, length and frame rate of every clip, as HTML."""
+def legend(actors: Sequence[Actor], unsaved: Sequence[Clip] = ()) -> str:
+    """Colour, name, length and frame rate of every clip, and whether it is to be saved yet, as HTML."""
     if not actors:
         return '<div style="padding:0.3em 0.6em;opacity:0.6;font-size:0.85em">Nothing on the stage yet.</div>'
-    return "".join(map(_row, actors))
+    return "".join(_row(actor, unsaved=actor.clip in unsaved) for actor in actors)
 
 
-def _row(actor: Actor) -> str:
+def _row(actor: Actor, *, unsaved: bool) -> str:
     clip = actor.clip
     dot = f"background:rgb{clip.colour};width:0.8em;height:0.8em;border-radius:50%;flex:none"
     facts = f"{clip.motion.duration:.1f} s · {clip.motion.fps:g} fps"
     note = f" · {html.escape(clip.note)}" if clip.note else ""
+    note += f'<span class="{UNSAVED}"> · not saved</span>' if unsaved else ""
     return (
         '<div style="display:flex;gap:0.6em;align-items:center;padding:0.25em 0.6em;font-size:0.85em;line-height:1.25">'
         f'<span style="{dot}"></span><span style="overflow-wrap:anywhere">{html.escape(clip.name)}'

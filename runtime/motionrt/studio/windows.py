@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Protocol, TypeVar
 
+from motionrt.formats import Character
 from motionrt.motion import Motion
 from motionrt.motion.skeleton import FloatArray
 from motionrt.studio.clips import Clip
@@ -33,6 +34,7 @@ class Show:
         scenery: drawn around them.
         draft: keypoints and paths that are drawn.
         path: ``(N, 2)`` x and z of a path on the ground.
+        character: who is seen instead of the figure.
     """
 
     clips: Sequence[Clip] = ()
@@ -42,6 +44,7 @@ class Show:
     path: FloatArray | None = None
     layout: str | None = None
     playing: bool = True
+    character: Character | None = None
     extra: dict[str, Any] = field(default_factory=dict)
 
 
@@ -61,6 +64,9 @@ class Window(Protocol):
 
     def redraw(self) -> None:
         """Draw everything as the clock says, now."""
+
+    def unsaved(self) -> Sequence[Clip]:
+        """Clips on the stage that somebody made and has not saved."""
 
     def rearrange(self) -> None:
         """After the look of the stage changed."""
@@ -87,11 +93,29 @@ class StudioWindow(Window, Protocol):
     def undo(self) -> None:
         """Take the last change back, whatever it was."""
 
-    def clip(self, name: str, motion: Motion, beside: Sequence[Clip], *, note: str = "", made: bool = True) -> Clip:
+    def saved(self, *clips: Clip) -> None:
+        """These clips are in a file now."""
+
+    def before_losing(self, kept: Sequence[Clip], go_on: Callable[[Sequence[Clip]], None]) -> None:
+        """Ask, if unsaved work is not among the clips that stay; then go on with those that stay."""
+
+    def clip(
+        self,
+        name: str,
+        motion: Motion,
+        beside: Sequence[Clip],
+        *,
+        note: str = "",
+        made: bool = True,
+        dear: bool = False,
+    ) -> Clip:
         """A clip with a name and a colour that no other has."""
 
     def put_clips(self, clips: Sequence[Clip], layout: str) -> None:
         """Put these clips on the stage and play them from the start."""
+
+    def set_character(self, character: Character | None) -> None:
+        """See all clips on a character of the user's own, or on the figure."""
 
     def open_script(self, file: Path) -> None:
         """Take over a script or a scene that was uploaded."""
@@ -119,6 +143,8 @@ class StudioWindow(Window, Protocol):
         keep: bool = False,
         world: bool = False,
         made: bool = True,
+        dear: bool = False,
+        saved: bool = False,
     ) -> None:
         """Play new motions (name, motion, note) from the start."""
 

@@ -11,12 +11,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from motionrt.errors import InvalidInputError, MotionRTError
-from motionrt.formats import WRITABLE_SUFFIXES
+from motionrt.formats import WRITABLE_SUFFIXES, Character
 from motionrt.motion import Motion
 from motionrt.untrusted.names import plain_stem
 
 if TYPE_CHECKING:
     from motionrt.runtime import Runtime
+
+
+CHARACTER_FORMATS = ("glb", "bvh")
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,6 +67,19 @@ def motion_bytes(motion: Motion, form: str) -> bytes:
         raise InvalidInputError(f"unknown format '{form}'; there are: {', '.join(formats())}")
     with tempfile.TemporaryDirectory() as folder:
         return motion.save(Path(folder) / f"motion.{form}").read_bytes()
+
+
+def character_bytes(character: Character, motion: Motion, form: str) -> bytes:
+    """A motion on a character of the user's own as the content of a file.
+
+    Raises:
+        InvalidInputError: another format than a character can be written in.
+        RigError: the motion cannot be played on it.
+    """
+    if form not in CHARACTER_FORMATS:
+        raise InvalidInputError(f"a character is written as {' or '.join(CHARACTER_FORMATS)}")
+    with tempfile.TemporaryDirectory() as folder:
+        return character.retargeted(motion).save(Path(folder) / f"motion.{form}").read_bytes()
 
 
 def file_name(name: str, suffix: str) -> str:
