@@ -44,8 +44,8 @@ def main(given: Sequence[str] | None = None) -> int:
     print(text)
     if arguments.write is not None:
         before = arguments.write.read_text(encoding="utf-8")
-        marked = re.compile(f"(<!-- {MARK} -->\n).*?(\n<!-- /{MARK} -->)", re.DOTALL)
-        arguments.write.write_text(marked.sub(lambda found: found[1] + text + found[2], before), encoding="utf-8")
+        marked = re.compile(f"(<!-- {MARK} -->\n).*?(<!-- /{MARK} -->)", re.DOTALL)
+        arguments.write.write_text(marked.sub(lambda found: f"{found[1]}{text}\n{found[2]}", before), encoding="utf-8")
     return 0
 
 
