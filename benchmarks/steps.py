@@ -110,11 +110,11 @@ def told(rows: list[Row], frames: int) -> str:
 
 
 def streams(runtime: Runtime, count: int, frames: int, first: int = 0) -> None:
-    """Measure and tell, every ten streams."""
+    """Measure and tell, every four streams."""
     rows = list[Row]()
     for seed in range(first, first + count):
         rows.append(measured(*stream(runtime, frames, seed)))
-        if len(rows) % 10 == 0 or len(rows) == count:
+        if len(rows) % 4 == 0 or len(rows) == count:
             print(told(rows, frames), flush=True)
 
 

@@ -42,6 +42,21 @@ def test_feet_in_the_air_and_feet_that_rise_are_at_no_contact() -> None:
     assert footing(rising, 30.0).contact_share == pytest.approx(0.5)
 
 
+@given(st.floats(0, 2), st.floats(0.05, 1.2))
+def test_the_tip_of_the_right_foot_slides_with_a_flat_sole_and_lifts_with_a_pitched_one(v: float, up: float) -> None:
+    sole = SMPL24.offsets[RIGHT].astype(np.float64)
+    joints = feet(0.0, v)
+    joints[:, SMPL24.index("right_ankle")] = joints[:, RIGHT] - sole
+    assert footing(joints, 30.0).right_tip_cm == pytest.approx(v * 200 / 30, abs=1e-6)
+    c, s = np.cos(up), np.sin(up)  # toes up, about the ball
+    joints[:, SMPL24.index("right_ankle")] = joints[:, RIGHT] - np.array([[1, 0, 0], [0, c, s], [0, -s, c]]) @ sole
+    raised = 7 * np.sin(up)
+    weight = 2 - 2 * raised / 2.5 if raised <= 2.5 else 0.0
+    assert footing(joints, 30.0).right_tip_cm == pytest.approx(v * 100 / 30 * weight, abs=0.05)
+    joints[:, SMPL24.index("right_ankle")] = joints[:, RIGHT] - np.array([[1, 0, 0], [0, c, -s], [0, s, c]]) @ sole
+    assert footing(joints, 30.0).right_tip_cm == pytest.approx(v * 200 / 30, abs=1e-6)  # heel up: toes stay level
+
+
 def test_the_difference_of_the_feet_is_a_share_of_the_larger() -> None:
     assert footing(feet(0.4, 0.3), 30.0).difference == pytest.approx(0.25)
     assert footing(feet(0.0, 0.0), 30.0).difference == 0.0
