@@ -50,8 +50,9 @@ def get(page: Any, path: str, **headers: str) -> tuple[int, bytes]:
 class Window:
     """A window without a browser: what the page's program sends and receives."""
 
-    def __init__(self, page: Any, **headers: str) -> None:
+    def __init__(self, page: Any, button: str = "Upload a mesh", **headers: str) -> None:
         self.port, self.token = parts(page)
+        self.button = button
         self.headers = {"Cookie": f"motionrt-{self.port}={self.token}", **headers}
         self.received, self.component, self.transfer = b"", "", ""
 
@@ -106,7 +107,7 @@ class Window:
             content = zstandard.ZstdDecompressor().decompress(packed)
             self.received += content
             for message in msgspec.msgpack.decode(content)["messages"]:
-                if message["type"] == "GuiUploadButtonMessage":
+                if message["type"] == "GuiUploadButtonMessage" and message["props"]["label"].startswith(self.button):
                     self.component = message["uuid"]
         assert enough(), self.received[-800:]
 
@@ -222,6 +223,46 @@ def test_an_upload_that_names_a_file_of_the_machine_learns_nothing(
         assert b"not uploaded" in heard
         assert b"motionrt-" not in heard[heard.index(b"did not work") :]  # nor where uploads lie
         told.append(heard[heard.index(b"did not work") :][:250].replace(b"here", b"????").replace(b"gone", b"????"))
+    assert told[0] == told[1]
+
+
+@pytest.mark.parametrize(
+    ("button", "name", "content"),
+    [
+        ("Open clips", "plan.yaml", "timeline: [{{text: walk, seconds: 2}}]\nedit: {secret}"),
+        ("Open clips", "plan.yaml", "timeline: [{{text: walk, seconds: 2}}]\nkeep: {secret}\nclip: {secret}"),
+        (
+            "Open clips",
+            "clip.gltf",
+            '{{"asset": {{"version": "2.0"}}, "buffers": [{{"uri": "{secret}", "byteLength": 8}}]}}',
+        ),
+        (
+            "Open a character",
+            "me.gltf",
+            '{{"asset": {{"version": "2.0"}}, "buffers": [{{"uri": "{secret}", "byteLength": 8}}]}}',
+        ),
+        ("Open a character", "me.glb", "{secret}"),
+    ],
+)
+def test_clips_plans_and_characters_learn_nothing_of_the_machine_either(
+    studio: Any, tmp_path: Path, button: str, name: str, content: str
+) -> None:
+    secret, missing = tmp_path / "here.csv", tmp_path / "gone.csv"
+    secret.write_text(f"{SECRET},1\n", encoding="utf-8")
+    told = []
+
+    async def attack(file: Path) -> bytes:
+        async with Window(studio, button) as window:
+            before = len(window.received)
+            await window.upload(name, content.format(secret=file).encode())
+            await window.hear(lambda: b"did not work" in window.received[before:])
+            return window.received[before:]
+
+    for file in (secret, missing):
+        heard = asyncio.run(attack(file))
+        assert SECRET.encode() not in heard
+        words = heard[heard.index(b"did not work") :].split(b"timestampSec")[0]
+        told.append(words.replace(b"here", b"????").replace(b"gone", b"????"))
     assert told[0] == told[1]
 
 

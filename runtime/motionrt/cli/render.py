@@ -7,8 +7,6 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from motionrt.cli.console import Progress, print_json, working
 from motionrt.cli.options import add_json, add_models, add_output, command, runtime
 from motionrt.cli.reading import add_reading, read_motion
@@ -128,6 +126,8 @@ def _given(arguments: argparse.Namespace, name: str) -> TakeLike:
 def _played(arguments: argparse.Namespace, name: str) -> TakeLike:
     """What a script plays, with its paths and keypoints, its furniture and the ground of its scene."""
     from dataclasses import replace
+
+    import numpy as np
 
     from motionrt.locomotion import Script, load_cloud
     from motionrt.rendering.takes import take_of
