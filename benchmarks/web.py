@@ -151,12 +151,15 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as name:
         place = Path(name)
         found = sites(place, arguments.portable)
+        as_shipped = write_folder(place / "native", {"starter": motionrt.Runtime().gallery()}, native=True)
         told = {"Python, shipped": in_python()}
         for files, site in found.items():
             told[f"Chromium, {files}"] = in_page(site, place / f"browser-{files}")
             told[f"Node.js, {files}"] = in_node(site, native=False)
             if NATIVE.is_file():
-                told[f"Node.js with onnxruntime-node, {files}"] = in_node(site, native=True)
+                told[f"Node.js with onnxruntime-node, {files}"] = in_node(
+                    as_shipped if files == "shipped" else site, native=True
+                )
     for where, times in told.items():
         print(f"{where}: " + ", ".join(f"{what} {ms:.2f} ms" for what, ms in times.items()), flush=True)
     if arguments.out is not None:

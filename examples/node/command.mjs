@@ -6,7 +6,7 @@ import { folder } from "motionrt-web/node";
 /** Run `main({ values, positionals })`; `options` are those of parseArgs with a `help` each. */
 export async function command(usage, options, main) {
   const all = {
-    site: { type: "string", default: "site", help: "folder that `motionrt web export` wrote" },
+    site: { type: "string", default: "site", help: "folder that `motionrt web export --native` wrote" },
     json: { type: "boolean", default: false, help: "print JSON" },
     help: { type: "boolean", short: "h", default: false, help: "show this" },
     ...options,

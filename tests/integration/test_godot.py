@@ -55,4 +55,6 @@ def test_bones_are_where_the_joints_are(project: Path) -> None:
     for seconds, places in zip(SECONDS, told["joints"], strict=True):
         names = [name.replace("spine", "spine_") for name in motion.skeleton.names]  # as Godot 3 writes them
         found = np.array([places[name] for name in names])
-        np.testing.assert_allclose(found, motion.positions()[round(30 * seconds)], atol=1e-4)
+        np.testing.assert_allclose(
+            found, motion.positions()[round(30 * seconds)], atol=1e-3
+        )  # it samples keys at 15 fps

@@ -35,7 +35,7 @@ def runtime() -> motionrt.Runtime:
 
 @pytest.fixture(scope="module")
 def site(runtime: motionrt.Runtime, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return write_folder(tmp_path_factory.mktemp("site"), {"starter": runtime.gallery()})
+    return write_folder(tmp_path_factory.mktemp("site"), {"starter": runtime.gallery()}, native=True)
 
 
 def run(script: str, *arguments: str) -> subprocess.CompletedProcess[str]:

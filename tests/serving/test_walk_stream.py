@@ -66,16 +66,22 @@ def test_more_streams_than_windows_are_refused_and_closed_ones_make_room(
     served: Served, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("MOTIONRT_LIMITS", "windows=1")
+    _all_closed(served)  # those of other tests
     with connect(served) as first:
         first.send(json.dumps({"x": 0, "z": 5}))
         first.recv()
         with connect(served) as second, pytest.raises(exceptions.ConnectionClosed) as caught:
             second.recv(timeout=20)
         assert caught.value.rcvd.code == 4503
-    for _ in range(100):
-        if served.app._metrics.streams == 0:  # type: ignore[attr-defined]
-            break
-        time.sleep(0.05)
+    _all_closed(served)
     with connect(served) as third:
         third.send(json.dumps({"x": 0, "z": 5}))
         assert json.loads(third.recv())["fps"] == 30
+
+
+def _all_closed(served: Served) -> None:
+    """Wait until the service has heard that no stream is open."""
+    for _ in range(200):
+        if served.app._metrics.streams == 0:  # type: ignore[attr-defined]
+            return
+        time.sleep(0.05)

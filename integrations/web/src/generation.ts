@@ -4,6 +4,7 @@ import data from "./data/words.json";
 import { checkedNumber, InvalidInputError } from "./errors";
 import { between, decode, FPS, smoothed, WIDTH } from "./ego77";
 import { lockFeet } from "./feet";
+import { uprightGround } from "./ground";
 import { withHeads } from "./heads";
 import { Motion } from "./motion";
 import { fromPositions } from "./positions";
@@ -20,7 +21,7 @@ const [HIGHEST, LOWEST, BEND] = [60, 0.15, 7]; // noise levels (Karras et al. 20
 const [POSE_GUIDANCE, TURN_GUIDANCE] = [5, 1.3];
 const [LATE, GUIDED] = [2.5, 2]; // noise levels below which the way is corrected, and down to which texts are guided
 const [NETWORK, OVERLAP] = [200, 5]; // frames at 20 fps: that the network sees, over which texts pass into each other
-const SWING = { clearance: 0.03, from: 0.6 }; // metres and m/s: a generated foot that swings drags more than a recorded one
+const SWING = { clearance: 0.03, from: 0.45 }; // metres and m/s: a generated foot that swings drags more than a recorded one
 
 export interface Sampling {
   /** Seconds, 0.5 to 10. */
@@ -69,7 +70,7 @@ export class Generator {
     const wanted = rounded(30 * times[times.length - 1].to);
     const motion = asMotion(rows, wanted);
     const drawn = motion.slice(0, Math.min(motion.frames, wanted));
-    const finished = withHeads(drawn, lines.map(({ text }, i) => ({ text, ...times[i] }))).canonical().grounded();
+    const finished = uprightGround(withHeads(drawn, lines.map(({ text }, i) => ({ text, ...times[i] }))).canonical().grounded());
     return sampling.footLock ?? true ? lockFeet(stepWhereSliding(finished), SWING) : finished;
   }
 

@@ -25,7 +25,9 @@ def add(commands: Any) -> None:
     writer.add_argument(
         "--gallery", action="append", default=[], metavar="NAME=DIR", help="take this gallery along; repeatable"
     )
-    writer.add_argument("--exact", action="store_true", help="the same walks on every machine; slower by half")
+    kind = writer.add_mutually_exclusive_group()
+    kind.add_argument("--exact", action="store_true", help="the same walks on every machine; slower by half")
+    kind.add_argument("--native", action="store_true", help="for Node.js with onnxruntime-node: files as shipped")
     add_models(writer)
     server = command(parts, "serve", run_serve, SERVE)
     server.add_argument("folder", type=Path, metavar="DIR", help="what 'motionrt web export' wrote")
@@ -45,7 +47,7 @@ def run_export(arguments: argparse.Namespace) -> int:
         if not name.isidentifier() or not folder:
             raise InvalidInputError(f"--gallery takes NAME=DIR, with a plain name, not {given!r}")
         galleries[name] = opened.gallery(folder)
-    told = {"models": arguments.models, "pages": arguments.pages, "exact": arguments.exact}
+    told = {name: getattr(arguments, name) for name in ("models", "pages", "exact", "native")}
     print(write_folder(arguments.folder, galleries, **told))
     return 0
 

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from motionrt.motion import Motion
+from motionrt.motion.feet.flat_ground import upright_ground
 from motionrt.motion.feet.lock import lock_feet
 from motionrt.motion.feet.sliding import step_where_sliding
 
-CLEARANCE, SWINGS_FROM = 0.03, 0.6  # metres and m/s: a generated foot that swings drags more than a recorded one
+CLEARANCE, SWINGS_FROM = 0.03, 0.45  # metres and m/s: a generated foot that swings drags more than a recorded one
 
 
 def finished(motion: Motion, foot_lock: bool = True) -> Motion:
-    """Starting above the origin, facing +Z, on the floor; and standing feet stand still."""
-    return locked(motion.canonical().grounded(), foot_lock)
+    """Starting above the origin, facing +Z, on the floor all the way; and standing feet stand still."""
+    return locked(upright_ground(motion.canonical().grounded()), foot_lock)
 
 
 def locked(motion: Motion, foot_lock: bool = True) -> Motion:

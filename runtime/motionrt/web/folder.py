@@ -5,7 +5,8 @@ from __future__ import annotations
 import hashlib
 import json
 import shutil
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +24,9 @@ MODELS = ("walknet", "tmr_text", "motion_denoiser", "tmr_student")
 """The models that a page may load; each is loaded when it is first needed."""
 VERSION = 1
 
+Change = Callable[[bytes], bytes]
+"""A model's content as it is written, out of that which is shipped."""
+
 
 def write_folder(
     out: str | Path,
@@ -32,6 +36,7 @@ def write_folder(
     pages: str | Path | None = None,
     only: Sequence[str] = MODELS,
     exact: bool = False,
+    native: bool = False,
 ) -> Path:
     """Write everything that a page needs, below ``out``; what is there under the same names is replaced.
 
@@ -43,22 +48,28 @@ def write_folder(
         only: which models.
         exact: files whose activations are float32. Walks and motions are then those that another machine makes of the
             same files, within 1e-3; quantised ones drift apart after some frames, and take two thirds of the time.
+        native: files as they are shipped, for Node.js with onnxruntime-node, which computes products by 8-bit blocks
+            itself; in WebAssembly texts take longer with them.
 
     Returns:
         ``out`` as a path.
 
     Raises:
-        InvalidInputError: an unknown model, pages that are not there, or a folder that cannot be written.
+        InvalidInputError: an unknown model, pages that are not there, a folder that cannot be written, or files that
+            are to be both exact and native.
         ModelFileError, ChecksumError: a model's file is missing, or not the one that the manifest means.
     """
+    if exact and native:
+        raise InvalidInputError("files are exact or native, not both: native ones are those that are shipped")
     manifest, folder = load_manifest(find_manifest(models)), Path(out)
+    kept: Change = _as_shipped if native else partial(unfolded, exact=exact)
     if unknown := sorted(set(only) - set(manifest.models)):
         raise InvalidInputError(f"unknown model {', '.join(unknown)}; there are: {', '.join(manifest.models)}")
     if pages is not None and not (Path(pages) / "index.html").is_file():
         raise InvalidInputError(f"{pages} holds no index.html; build the pages: cd integrations/web && npm run demo")
     try:
         (folder / "models").mkdir(parents=True, exist_ok=True)
-        entries = {name: _model(manifest, name, folder, exact) for name in only}
+        entries = {name: _model(manifest, name, folder, kept) for name in only}
         _tokenizer(manifest, folder)
         for name, gallery in galleries.items():
             _gallery(gallery, folder / "galleries" / name)
@@ -70,9 +81,13 @@ def write_folder(
     return folder
 
 
-def _model(manifest: Manifest, name: str, folder: Path, exact: bool) -> dict[str, Any]:
+def _as_shipped(model: bytes) -> bytes:
+    return model
+
+
+def _model(manifest: Manifest, name: str, folder: Path, change: Change) -> dict[str, Any]:
     variant = manifest.variant(name)
-    content = unfolded(verified(manifest, variant), exact=exact)
+    content = change(verified(manifest, variant))
     file = f"models/{Path(variant.file).name}"
     (folder / file).write_bytes(content)
     return {"file": file, "bytes": len(content), "sha256": hashlib.sha256(content).hexdigest()}

@@ -7,7 +7,8 @@ from gaits import gait
 from motions import standing
 
 from motionrt.motion import Motion
-from motionrt.motion.feet.flat_ground import flat_ground
+from motionrt.motion.feet.flat_ground import flat_ground, upright_ground
+from motionrt.motion.transforms import moved
 
 TOES = [10, 11]
 
@@ -55,3 +56,13 @@ def test_without_a_standing_foot_it_is_grounded() -> None:
     still = standing(30, fps=30)
     flying = raised(still, 1 + 2 * np.arange(30) / 30)
     np.testing.assert_allclose(flat_ground(flying).root, flying.grounded().root, atol=1e-5)
+
+
+def test_the_upright_come_onto_the_ground_and_the_lying_stay() -> None:
+    still = standing(60, fps=30)
+    hovers = moved(still, np.array([0, 0.06, 0], np.float32))
+    assert np.allclose(upright_ground(hovers).root, still.root, atol=0.02)
+    rotations = still.rotations.copy()
+    rotations[:, 0] = [[1, 0, 0], [0, 0, -1], [0, 1, 0]]  # on the back
+    lies = Motion(rotations, np.tile(np.array([0, 0.12, 0], np.float32), (60, 1)), 30)
+    assert np.array_equal(upright_ground(lies).root, lies.root)
