@@ -1,4 +1,4 @@
-// A motion on flat ground while somebody is upright (motionrt.motion.feet.flat_ground).
+// A motion on flat ground while somebody is on feet or knees (motionrt.motion.feet.flat_ground).
 import { LOOSE_SPEED, speeds, wayOf } from "./feet";
 import { LEGS } from "./legs";
 import { Motion } from "./motion";
@@ -6,9 +6,9 @@ import { clamp } from "./rotations";
 
 const HIGHEST = 0.15; // metres above the lowest toe: what stands higher stands on something
 const [SMOOTH_S, QUANTILE] = [0.8, 0.3]; // seconds of the average over time; of the heights of standing toes
-const [LOW, UPRIGHT] = [0.45, 0.65]; // heights of the pelvis between which the ground of feet counts more and more
+const [LOW, UPRIGHT] = [0.2, 0.4]; // heights of the pelvis between which the ground of feet counts more and more
 
-/** The motion, moved vertically so that standing feet lie at 0; who crawls or lies keeps the height. */
+/** The motion, moved vertically so that standing feet lie at 0; who lies keeps the height. */
 export function uprightGround(motion: Motion): Motion {
   const curve = groundCurve(motion);
   const root = motion.root.map((value, i) => (i % 3 === 1 ? value - curve[(i - 1) / 3] * shareOf(motion, (i - 1) / 3) : value));

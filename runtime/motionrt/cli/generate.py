@@ -64,10 +64,18 @@ def run(arguments: argparse.Namespace) -> int:
         )
     written = [(motion, motion.save(path)) for motion, path in zip(motions, paths, strict=True)]
     tell_seed(arguments, options["seed"])
+    _warn_of_foreign(asked.get("text"))
     if options["candidates"] > 1:
         say(f"the best of {options['candidates']} candidates each; --candidates 1 takes the first")
     _tell(arguments, options, written, plan)
     return 0
+
+
+def _warn_of_foreign(text: str | None) -> None:
+    from motionrt.retrieval.vocabulary import unknown_words
+
+    if text and unknown_words(text):
+        say(f"no word of '{text}' is known, so this is a guess: say in English what somebody does")
 
 
 def _tell(

@@ -12,12 +12,12 @@ _ASSETS = Path(__file__).parents[1] / "_assets"
 _LISTS = ("action_words.tsv", "captions.txt")
 
 
-def unknown_words(text: str, library: WordIndex) -> tuple[str, ...]:
+def unknown_words(text: str, library: WordIndex | None = None) -> tuple[str, ...]:
     """The telling words of a text, when neither the parser, nor motionrt's lists of actions, nor the library knows any.
 
     Empty as soon as one is known: the embedding then makes sense of the rest.
     """
-    if not parse_query(text).empty or library.known(text):
+    if not parse_query(text).empty or (library is not None and library.known(text)):
         return ()
     asked = stems(text)
     if any(word in _vocabulary() for word in asked):

@@ -149,9 +149,11 @@ def _estimate(
             np.array([guidance], np.float32),
         )  # fmt: skip
         weight = piece.weight[:, OWNERS]
-        np.add.at(share, places, weight)
-        for total, one in zip(totals, found, strict=True):
-            np.add.at(total, places, weight * one[0])
+        for total, more in ((share, weight), *zip(totals, (weight * one[0] for one in found), strict=True)):
+            if canvas.ring:  # a ring's piece laps over itself
+                np.add.at(total, places, more)
+            else:
+                total[places[0] : places[-1] + 1] += more
     return totals[0] / share, totals[1] / share
 
 

@@ -124,3 +124,11 @@ def test_neither_text_nor_plan_is_wrong_usage(tmp_path: Path, capsys: pytest.Cap
 def test_wrong_usage_is_exit_code_two(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["generate", *arguments]) == 2
     assert "usage: motionrt generate" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(("text", "warned"), [("asdf qwer zxcv", True), ("a person waves", False)])
+def test_a_text_without_a_known_word_is_told_to_be_a_guess(
+    text: str, warned: bool, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["generate", text, "-o", str(tmp_path / "x.bvh"), *map(str, MODELS)]) == 0
+    assert ("this is a guess" in capsys.readouterr().err) is warned

@@ -19,7 +19,7 @@ from motionrt.motion.transforms import TOE_JOINTS, floor_height
 
 HIGHEST = 0.15  # metres above the lowest toe: what stands higher stands on something
 SMOOTH_S = 0.8  # standard deviation in seconds of the average over time: about the time of a step
-LOW, UPRIGHT = 0.45, 0.65  # heights of the pelvis in metres between which the ground of feet counts more and more
+LOW, UPRIGHT = 0.2, 0.4  # heights of the pelvis in metres between which the ground of feet counts more and more
 QUANTILE = 0.3  # of the heights of standing toes: late in a step the toe joint rises with the heel
 
 
@@ -35,7 +35,7 @@ def flat_ground(motion: Motion) -> Motion:
 
 
 def upright_ground(motion: Motion) -> Motion:
-    """A ``smpl24`` motion on flat ground while somebody is upright; who crawls or lies keeps the height."""
+    """A ``smpl24`` motion on flat ground while somebody is on the feet or knees; who lies keeps the height."""
     pelvis = motion.positions()[:, motion.skeleton.index("pelvis"), 1]
     share = np.clip((pelvis - LOW) / (UPRIGHT - LOW), 0, 1)
     lift = np.zeros((motion.frames, 3), dtype=np.float32)
