@@ -20,6 +20,9 @@ _RESTING = 0.25
 _RIG_DIFFERENCE = 0.06
 """Up to this height in metres above zero, resting toes are taken to stand on the floor."""
 
+_OWN_HEIGHT = 0.08
+"""Metres at the size of the target up to which a rig's own toe joints are on the floor of the file."""
+
 
 def place_root(turned: Array, world: RigPose, fps: float) -> Array:
     """Pelvis positions ``(F, 3)`` in metres.
@@ -34,8 +37,14 @@ def place_root(turned: Array, world: RigPose, fps: float) -> Array:
     hips = 0.5 * (rest[SMPL24.index("left_hip")] + rest[SMPL24.index("right_hip")])
     root = scale * world.hip_centre() - turned[:, 0] @ hips
     positions, _ = fk(global_to_local(turned, SMPL24.parents), root, SMPL24.offsets, SMPL24.parents)
-    root[:, 1] -= floor_offset(positions, fps)
+    root[:, 1] -= floor_offset(positions, fps, _stands_on_zero(world, scale))
     return np.asarray(root)
+
+
+def _stands_on_zero(world: RigPose, scale: float) -> bool:
+    """Whether the rig's own toes come down to the floor of the file, however high its feet are."""
+    toes = [world.at(f"{side}_foot")[:, 1] for side in SIDES if f"{side}_foot" in world.roles.joints]
+    return bool(toes) and abs(scale * float(np.percentile(np.min(toes, axis=0), 2))) < _OWN_HEIGHT
 
 
 def leg_scale(world: RigPose) -> float:
@@ -51,7 +60,7 @@ def leg_scale(world: RigPose) -> float:
     return target / source
 
 
-def floor_offset(positions: Array, fps: float) -> float:
+def floor_offset(positions: Array, fps: float, on_zero: bool = False) -> float:
     """Height in metres at which resting feet stand, if it is a matter of the rig and not of the motion.
 
     Rigs differ in the height of ankles and toe joints above the sole, and captures in where they put zero.
@@ -62,6 +71,7 @@ def floor_offset(positions: Array, fps: float) -> float:
     Args:
         positions: target joints ``(F, 24, 3)`` on the floor of the file, metres.
         fps: frames per second.
+        on_zero: whether the rig itself is known to stand on zero.
     """
     toes = positions[:, [SMPL24.index("left_foot"), SMPL24.index("right_foot")]]
     height = toes[..., 1]
@@ -69,4 +79,4 @@ def floor_offset(positions: Array, fps: float) -> float:
     low = height < np.percentile(height.min(axis=1), 2) + _NEAR_FLOOR
     resting = low & (speed < _RESTING)
     floor = float(np.median(height[resting if resting.any() else low]))
-    return floor if floor < _RIG_DIFFERENCE else 0.0
+    return floor if on_zero or floor < _RIG_DIFFERENCE else 0.0
