@@ -9,7 +9,6 @@ leg would be too short.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 
 import numpy as np
 import numpy.typing as npt
@@ -17,8 +16,9 @@ import numpy.typing as npt
 from motionrt.locomotion.footfalls import eased
 from motionrt.locomotion.terrain import Heights
 from motionrt.motion import Motion
-from motionrt.motion.feet.lock import needed_drop, smooth_cover
-from motionrt.motion.feet.two_bone import LEG_JOINTS, bend_legs
+from motionrt.motion.feet.contacts import stretches
+from motionrt.motion.feet.lock import with_feet_moved
+from motionrt.motion.feet.two_bone import LEG_JOINTS
 from motionrt.motion.rotations import axis_angle_to_matrix
 
 EVEN = 0.004  # metres between the ground under the feet and under the pelvis: less is flat
@@ -64,11 +64,7 @@ def feet_on_ground(motion: Motion, planted: npt.NDArray[np.bool_], ground: Heigh
     offset[..., 1] += rise + level - toes[..., 1]
     offset[..., [0, 2]] += np.stack([course[:, 2:] for course in courses], axis=1)
     turned[:, _ANKLES] = tilt @ turned[:, _ANKLES]
-    drop = smooth_cover(needed_drop(joints, offset, np.ones_like(planted), SINKS), HALF)
-    sunk = np.array([0.0, 1.0, 0.0]) * drop[:, None]
-    offset[..., 1] += drop[:, None]
-    rotations = bend_legs(motion.rotations, joints - sunk[:, None], turned, offset)
-    return replace(motion, rotations=rotations.astype(np.float32), root=(motion.root - sunk).astype(np.float32))
+    return with_feet_moved(motion, joints, turned, offset, np.ones_like(planted), max_drop=SINKS, half=HALF)
 
 
 def surface_gaps(motion: Motion, planted: npt.NDArray[np.bool_], under: Under) -> Values:
@@ -99,13 +95,13 @@ def _course(
     planted: npt.NDArray[np.bool_], ankles: Values, toes: Values, soles: Values, level: Values, under: Under
 ) -> Values:
     """``(F, 4)`` of one foot: height of the ground that it is on, pitch (radians, heel up), metres moved along x, z."""
-    course, runs = np.zeros((len(soles), 4)), _runs(planted)
+    course, runs = np.zeros((len(soles), 4)), stretches(planted)
     course[:, 0] = soles[:, 1]
     for start, end in runs:
         course[start:end] = _stand(
             np.median(_places(ankles[start:end], toes[start:end]), axis=0), soles[start:end], under
         )
-    for start, end in _runs(~planted) if runs else []:
+    for start, end in stretches(~planted) if runs else []:
         if start == 0 or end == len(planted):
             course[start:end] = course[end if start == 0 else start - 1]
             continue
@@ -145,9 +141,3 @@ def _tilts(bones: Values, pitch: Values) -> Values:
     ahead /= np.maximum(np.linalg.norm(ahead, axis=-1, keepdims=True), 1e-9)
     left = np.stack([ahead[..., 2], np.zeros_like(pitch), -ahead[..., 0]], axis=-1)
     return np.asarray(axis_angle_to_matrix(left * pitch[..., None]))
-
-
-def _runs(flags: npt.NDArray[np.bool_]) -> list[tuple[int, int]]:
-    """First and behind-the-last index of every run of true values."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], flags, [False]]).astype(int)))
-    return [(int(start), int(end)) for start, end in edges.reshape(-1, 2)]

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from motionrt.errors import InvalidInputError
-from motionrt.metrics.locomotion import SKATE_HEIGHT_CM
+from motionrt.metrics.locomotion import SKATE_HEIGHT_CM, point_skates
 from motionrt.motion.skeleton import SMPL24
 from motionrt.motion.transforms import TOE_JOINTS
 
@@ -70,18 +70,11 @@ def footing(positions: npt.ArrayLike, fps: float, floor: float = 0.0) -> Footing
     toes = joints[:, _TOES] * 100
     step = np.linalg.norm(np.diff(toes[..., [0, 2]], axis=0), axis=-1)  # (F - 1, 2) cm
     height = np.maximum(toes[1:, :, 1] - 100 * floor, 0)
-    left, right = _skates(toes, 100 * floor).mean(axis=0)
+    left, right = point_skates(toes, 100 * floor).mean(axis=0)
     stands = (height < SKATE_HEIGHT_CM) & (np.diff(toes[..., 1], axis=0) <= 100 * RISING * 30 / fps)
     speed = float(step[stands].mean() * fps / 100) if stands.any() else 0.0
-    tip = float(_skates(_tips(joints)[:, 1:] * 100, 100 * floor).mean())
+    tip = float(point_skates(_tips(joints)[:, 1:] * 100, 100 * floor).mean())
     return Footing(float(left), float(right), float(left + right), tip, speed, float(stands.mean()))
-
-
-def _skates(points: npt.NDArray[np.float64], floor: float) -> npt.NDArray[np.float64]:
-    """``(F - 1, N)`` what points ``(F, N, 3)`` cm add to the printed sum in every frame."""
-    step = np.linalg.norm(np.diff(points[..., [0, 2]], axis=0), axis=-1)
-    height = np.maximum(points[1:, :, 1] - floor, 0)
-    return np.asarray(step * np.where(height <= SKATE_HEIGHT_CM, 2 - 2 * height / SKATE_HEIGHT_CM, 0))
 
 
 def _tips(joints: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:

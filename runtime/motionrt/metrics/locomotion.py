@@ -37,11 +37,14 @@ def foot_skate(positions: npt.ArrayLike, floor: float = 0.0) -> float:
 
 def foot_skates(positions: npt.ArrayLike, floor: float = 0.0) -> Floats:
     """``(F - 1,)``: what every frame adds to :func:`foot_skate`, cm."""
-    toes = _frames(positions, 2, _TOES) * 100
-    step = np.linalg.norm(np.diff(toes[..., [0, 2]], axis=0), axis=-1)
-    height = np.maximum(toes[1:, :, 1] - 100 * floor, 0)
-    weight = np.where(height <= SKATE_HEIGHT_CM, 2 - 2 * height / SKATE_HEIGHT_CM, 0)
-    return np.asarray((step * weight).sum(axis=1))
+    return np.asarray(point_skates(_frames(positions, 2, _TOES) * 100, 100 * floor).sum(axis=1))
+
+
+def point_skates(points: Floats, floor: float = 0.0) -> Floats:
+    """``(F - 1, N)``: what points ``(F, N, 3)`` in cm add to :func:`foot_skate` in every frame; the floor in cm."""
+    step = np.linalg.norm(np.diff(points[..., [0, 2]], axis=0), axis=-1)
+    height = np.maximum(points[1:, :, 1] - floor, 0)
+    return np.asarray(step * np.where(height <= SKATE_HEIGHT_CM, 2 - 2 * height / SKATE_HEIGHT_CM, 0))
 
 
 def jerk(positions: npt.ArrayLike, fps: float) -> float:

@@ -7,7 +7,7 @@ from functools import lru_cache
 
 from motionrt.text import lexicon as lex
 from motionrt.text.lexicon.gestures import Gesture, HeadGesture
-from motionrt.text.patterns import has, plain, without
+from motionrt.text.patterns import affirmed, has, plain
 from motionrt.text.query import TextAttributes
 
 _SIDES = ("left", "right")
@@ -44,7 +44,7 @@ def gestures_of_text(said: TextAttributes) -> Gestures:
 
 @lru_cache(maxsize=1024)
 def _found(text: str, arm: str | None, leg: str | None, raised: str | None) -> Gestures:
-    words = without(without(plain(text), [lex.NEGATION]), lex.NO_SIDES)
+    words = affirmed(plain(text))
     if has(words, lex.NOT_GESTURES):
         return Gestures()
     hands: dict[str, Gesture] = {}

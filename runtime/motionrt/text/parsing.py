@@ -9,7 +9,7 @@ from motionrt.errors import InvalidInputError
 from motionrt.text import lexicon as lex
 from motionrt.text.directions import path_of, speed_of, travel_of, turn_of
 from motionrt.text.limbs import arms_of, feet_of, hands_of
-from motionrt.text.patterns import compiled, has, may_match, plain, without
+from motionrt.text.patterns import affirmed, compiled, has, may_match, plain
 from motionrt.text.postures import postures_of
 from motionrt.text.query import TextAttributes
 from motionrt.text.times import jumps_of, repeats_of
@@ -33,7 +33,7 @@ def _parsed(text: str) -> TextAttributes:
     for pattern, meaning in lex.NEGATED_MEANING:
         if has(whole, pattern):
             said.update(meaning)
-    words = without(without(whole, [lex.NEGATION]), lex.NO_SIDES)
+    words = affirmed(whole)
     actions = _actions(words)
     found: dict[str, Any] = {"action": actions[0] if actions else None}
     found["actions"] = tuple(sorted(actions, key=lambda name: _place(words, name)))

@@ -67,6 +67,11 @@ def plain(text: str) -> str:
     return " ".join(re.sub(r"[-_/\u2010-\u2015]+", " ", letters).split())
 
 
+def affirmed(whole: str) -> str:
+    """A plain text without what it denies, and without sides that are none ("right away")."""
+    return without(without(whole, [lexicon.NEGATION]), lexicon.NO_SIDES)
+
+
 def has(text: str, pattern: str) -> bool:
     """Whether a text holds a pattern."""
     return may_match(text, pattern) and compiled(pattern).search(text) is not None

@@ -67,11 +67,30 @@ def lock_feet(
     positions = motion.positions().astype(np.float64)
     offset = _offsets(toes, planted, _calm(speed), floor if level else None, blend_s * motion.fps)
     offset[..., 1] += lift(toes[..., 1] + offset[..., 1] - floor, speed, clearance, swings_from)
-    drop = smooth_cover(needed_drop(positions, offset, planted, max_drop), max(1, round(blend_s * motion.fps / 2)))
-    offset[..., 1] += drop[:, None]
+    half = max(1, round(blend_s * motion.fps / 2))
+    return with_feet_moved(motion, positions, motion.global_rotations(), offset, planted, max_drop=max_drop, half=half)
+
+
+def with_feet_moved(
+    motion: Motion, positions: Array, turned: Array, offset: Array, counts: BoolArray, *, max_drop: float, half: int
+) -> Motion:
+    """``motion`` with its feet moved; the legs follow, and the pelvis sinks where a foot would not reach.
+
+    Args:
+        motion: of ``smpl24``.
+        positions: ``(F, 24, 3)`` its joints, float64.
+        turned: ``(F, 24, 3, 3)`` its global rotations; feet may have been given others, which they keep.
+        offset: ``(F, 2, 3)`` metres that the left and the right foot move.
+        counts: ``(F, 2)``, for which of them the pelvis sinks.
+        max_drop: metres that it may sink.
+        half: frames to either side over which the sinking is smoothed.
+    """
+    drop = smooth_cover(needed_drop(positions, offset, counts, max_drop), half)
     sunk = np.array([0, 1, 0]) * drop[:, None]
-    rotations = by_batches(bend_legs, motion.rotations, positions - sunk[:, None], motion.global_rotations(), offset)
-    return replace(motion, rotations=rotations, root=(motion.root - sunk).astype(np.float32))
+    moved = offset.copy()
+    moved[..., 1] += drop[:, None]
+    rotations = by_batches(bend_legs, motion.rotations, positions - sunk[:, None], turned, moved)
+    return replace(motion, rotations=rotations.astype(np.float32), root=(motion.root - sunk).astype(np.float32))
 
 
 def lift(height: Array, speed: Array, clearance: float = CLEARANCE, swings_from: float = LOOSE_SPEED) -> Array:

@@ -6,14 +6,12 @@ one to the next in turn with the other foot. Where it is when, in the mean, stay
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
 from motionrt.errors import InvalidInputError
 from motionrt.motion.feet.contacts import LOOSE_SPEED, STRICT_HEIGHT, speeds
-from motionrt.motion.feet.lock import BLEND_S, MAX_SHIFT, faded, needed_drop, smooth_cover
-from motionrt.motion.feet.two_bone import LEG_JOINTS, bend_legs
+from motionrt.motion.feet.lock import BLEND_S, MAX_DROP, MAX_SHIFT, faded, with_feet_moved
+from motionrt.motion.feet.two_bone import LEG_JOINTS
 from motionrt.motion.motion import Motion
 from motionrt.motion.rotations import Array
 from motionrt.motion.runs import BoolArray, Runs
@@ -23,7 +21,6 @@ STRAYS = 0.1  # metres that a foot may be off the place where it stands before i
 SWING_S, REST_S = 0.3, 0.13  # seconds that a foot is in the air, and stands at least
 LIFT = 0.05  # metres
 UPRIGHT = 0.6  # metres that the pelvis is high: who crawls or kneels drags the feet
-MAX_DROP = 0.05  # metres that the pelvis may sink for a leg to reach
 _TOES = [leg[3] for leg in LEG_JOINTS]
 _PELVIS = SMPL24.index("pelvis")
 
@@ -49,11 +46,8 @@ def step_where_sliding(motion: Motion, floor: float = 0.0) -> Motion:
         return motion
     offset = _stepped(toes, sliding, motion.fps)
     offset = np.ascontiguousarray(_tails(offset, sliding, BLEND_S * motion.fps))
-    drop = smooth_cover(needed_drop(positions, offset, sliding, MAX_DROP), max(1, round(BLEND_S * motion.fps / 2)))
-    offset[..., 1] += drop[:, None]
-    sunk = np.array([0, 1, 0]) * drop[:, None]
-    rotations = bend_legs(motion.rotations, positions - sunk[:, None], motion.global_rotations(), offset)
-    return replace(motion, rotations=rotations, root=(motion.root - sunk).astype(np.float32))
+    half = max(1, round(BLEND_S * motion.fps / 2))
+    return with_feet_moved(motion, positions, motion.global_rotations(), offset, sliding, max_drop=MAX_DROP, half=half)
 
 
 def _sliding(toes: Array, pelvis: Array, fps: float, floor: float) -> BoolArray:

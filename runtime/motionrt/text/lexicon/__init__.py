@@ -1,7 +1,7 @@
 """Every word and phrase that the parser knows, in one place; patterns are matched in lower-case text.
 
-A text is prepared first (:func:`motionrt.text.parsing.prepared`): lower case, hyphens apart, sides that are none
-("right away") and negated clauses taken out. ``{...}`` names a group of words of :data:`GROUPS`.
+A text is prepared first (``plain`` and ``affirmed`` of :mod:`motionrt.text.patterns`): lower case, hyphens apart, sides
+that are none ("right away") and negated clauses taken out. ``{...}`` names a group of words of :data:`GROUPS`.
 """
 
 from __future__ import annotations
