@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from motionrt.errors import InvalidInputError
-from motionrt.formats.atomic import write_bytes
+from motionrt.formats.atomic import write_atomically, write_bytes
 from motionrt.formats.bvh.target import BvhTarget
 from motionrt.formats.bvh.write import write_rig_bvh
 from motionrt.formats.fbx.write import fbx_of_glb
@@ -39,7 +39,8 @@ class BvhRigFile:
         if units is not None:
             raise InvalidInputError(f"units do not apply: a .bvh keeps those of {name}, a .glb is in metres")
         if suffix == ".bvh":
-            return write_bytes(path, self.target.with_animation(_clip(motion, t_pose)))
+            lines = self.target.with_animation(_clip(motion, t_pose))
+            return write_atomically(path, lambda file: file.writelines(lines))
         if t_pose:
             raise InvalidInputError("t_pose is for .bvh; a .glb knows its rest pose")
         return _in_glb(path, motion.fps, lambda glb, fps: write_rig_glb(_at(to_metres(motion), fps), glb))

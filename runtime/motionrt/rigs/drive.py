@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import partial
 
 import numpy as np
@@ -15,7 +16,7 @@ from motionrt.rigs.pose import RigPose, still_pose
 from motionrt.rigs.stance import Stance
 
 Turned = dict[int, Array]
-"""Rig joint -> global rotations ``(F, 3, 3)``, Y up."""
+"""Rig joint -> global rotations ``(F, 3, 3)``, Y up; float32, since long motions fill the memory."""
 
 _SWUNG = (("hip", "knee"), ("knee", "ankle"), ("shoulder", "elbow"), ("elbow", "wrist"))
 _TRUNK, _NECK = ("pelvis", "spine1", "spine2", "spine3"), ("spine3", "neck", "head")
@@ -33,12 +34,20 @@ def drive(turned: FloatArray, clip: RigClip, stance: Stance, local: FloatArray) 
         stance: what is known of it.
         local: ``(J, 3, 3)`` local rotations of the pose in which uncast joints stay.
     """
-    out: Turned = {joint: turn @ stance.alignments[joint].T for joint, turn in _counterparts(turned, stance).items()}
+    out = _counterparts(turned, stance)
+    for joint in out:
+        out[joint] = stored(lambda part, to=stance.alignments[joint].T: part @ to, out[joint])
     still = still_pose(clip, stance.roles, local)
     for side in SIDES:
         for upper, lower in _SWUNG:
             _swing(out, turned, still, f"{side}_{upper}", f"{side}_{lower}")
     return out
+
+
+def stored(function: Callable[..., Array], *arrays: Array) -> Array:
+    """``function`` of all frames, worked out with 64 bits and kept with 32."""
+    wide = partial(np.asarray, dtype=np.float64)
+    return by_batches(lambda *parts: function(*map(wide, parts)).astype(np.float32), *arrays)
 
 
 def _counterparts(turned: FloatArray, stance: Stance) -> Turned:
@@ -78,8 +87,8 @@ def _share(weight: float, lower: Array, upper: Array) -> Array:
 
 
 def _of(turned: FloatArray, role: str) -> Array:
-    """Global rotations ``(F, 3, 3)`` of one joint of ``smpl24``, float64."""
-    return turned[:, SMPL24.index(role)].astype(np.float64)
+    """Global rotations ``(F, 3, 3)`` of one joint of ``smpl24``."""
+    return turned[:, SMPL24.index(role)]
 
 
 def _swing(out: Turned, turned: FloatArray, still: RigPose, role: str, end: str) -> None:
@@ -88,4 +97,4 @@ def _swing(out: Turned, turned: FloatArray, still: RigPose, role: str, end: str)
     bone = still.rotations[joint].T @ still.bone(role, end)
     if joint in out and np.linalg.norm(bone) > 1e-9:
         wanted = _of(turned, role) @ rest_direction(role, end)
-        out[joint] = by_batches(lambda one, other: rotation_between(one @ bone, other) @ one, out[joint], wanted)
+        out[joint] = stored(lambda one, other: rotation_between(one @ bone, other) @ one, out[joint], wanted)

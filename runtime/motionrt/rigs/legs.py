@@ -8,6 +8,7 @@ from motionrt.motion.batches import by_batches
 from motionrt.motion.feet.two_bone import LEG_JOINTS, soft_limit, two_bone
 from motionrt.motion.motion import Motion
 from motionrt.motion.rotations import Array
+from motionrt.motion.skeleton import FloatArray
 from motionrt.motion.transforms import facing
 from motionrt.rigs.alignment import SIDES
 from motionrt.rigs.build import Build
@@ -19,7 +20,7 @@ _MAX_DROP = 0.06  # metres that the hips may sink where a standing foot is out o
 _SMOOTH_S = 0.1
 
 
-def place_legs(turned: Turned, motion: Motion, stance: Stance, build: Build) -> Array:
+def place_legs(turned: Turned, motion: Motion, bends: Array, stance: Stance, build: Build) -> Array:
     """Bend the legs so that the toe joints are where those of ``motion`` are; returns the pelvis ``(F, 3)``, metres.
 
     The hips are as high above the ankles as they are in ``motion``, in the proportion of the legs; the soles stand on
@@ -28,6 +29,7 @@ def place_legs(turned: Turned, motion: Motion, stance: Stance, build: Build) -> 
     Args:
         turned: global rotations of the rig, Y up; those of hips and knees are changed.
         motion: the source, ``smpl24``.
+        bends: ``(F, 2, 3)`` which way its knees bend: :func:`knees_ahead`.
         stance: the rig.
         build: its measures.
     """
@@ -40,19 +42,22 @@ def place_legs(turned: Turned, motion: Motion, stance: Stance, build: Build) -> 
     drop = _drop(chains, target, motion)
     root[:, 1] -= drop
     chains[..., 1] -= drop[:, None, None]
-    forward = motion.global_rotations()[:, [leg[0] for leg in LEG_JOINTS]][..., 2].astype(np.float64)
     uppers = [[joints[f"{side}_{part}"] for part in ("hip", "knee")] for side in SIDES]
     rotations = np.stack([np.stack([turned[joint] for joint in pair], axis=1) for pair in uppers], axis=1)
-    bent = by_batches(lambda *rows: two_bone(*rows)[1], chains, rotations, target, forward)
+    bent = by_batches(lambda *rows: two_bone(*rows)[1], chains, rotations, target, bends)
     for side, pair in enumerate(uppers):
         for part, joint in enumerate(pair):
-            turned[joint] = bent[:, side, part]
+            turned[joint] = bent[:, side, part].astype(np.float32)
     return np.asarray(root)
 
 
+def knees_ahead(turned: FloatArray) -> Array:
+    """``(F, 2, 3)``: which way thighs of ``smpl24`` face, of global rotations ``(F, 24, 3, 3)``."""
+    return turned[:, [leg[0] for leg in LEG_JOINTS]][..., 2].astype(np.float64)
+
+
 def _hip_centres(motion: Motion, build: Build) -> Array:
-    points = motion.positions().astype(np.float64)
-    centres = points[:, [leg[0] for leg in LEG_JOINTS]].mean(axis=1)
+    centres = motion.positions()[:, [leg[0] for leg in LEG_JOINTS]].mean(axis=1, dtype=np.float64)
     lift = np.array([0.0, build.rise + build.sole, 0.0])
     return np.asarray(centres + lift - build.ahead * facing(motion))
 

@@ -22,7 +22,7 @@ from motionrt.motion.skeleton import SMPL24
 from motionrt.rigs.build import read_build
 from motionrt.rigs.clip import RigClip
 from motionrt.rigs.drive import drive
-from motionrt.rigs.legs import place_legs
+from motionrt.rigs.legs import knees_ahead, place_legs
 from motionrt.rigs.root_motion import carry
 from motionrt.rigs.secondary import relaxed, share_twists
 from motionrt.rigs.stance import Stance, read_stance
@@ -80,9 +80,11 @@ def to_rig(
             " save it in its T-pose"
         )
     local = rig.clip.rest_rotations() if stance.local is None else stance.local
-    turned = drive(motion.global_rotations(), rig.clip, stance, local)
+    source = motion.global_rotations()
+    turned, bends = drive(source, rig.clip, stance, local), knees_ahead(source)
+    del source  # the largest of all: long motions fill the memory
     build = read_build(rig.clip, stance, local)
-    root = place_legs(turned, motion, stance, build)
+    root = place_legs(turned, motion, bends, stance, build)
     share_twists(turned, rig.clip, stance, local)
     still = relaxed(rig.clip, stance, local)
     rotations, translations = carry(motion, turned, build.units * root, rig, stance, still, root_motion)

@@ -10,7 +10,7 @@ from motionrt.motion.motion import Motion
 from motionrt.motion.rotations import Array, axis_rotation, yaw_angle
 from motionrt.motion.skeleton import FloatArray
 from motionrt.motion.transforms import heading
-from motionrt.rigs.drive import Turned
+from motionrt.rigs.drive import Turned, stored
 from motionrt.rigs.stance import Stance
 from motionrt.rigs.target import Rig
 from motionrt.rigs.tree import RigTree
@@ -25,7 +25,7 @@ def carry(
 
     Args:
         motion: the source.
-        turned: global rotations of the joints that have a role, Y up.
+        turned: global rotations of the joints that have a role, Y up; used up.
         pelvis: ``(F, 3)`` where the pelvis joint shall be, Y up, units of the rig.
         rig: the target.
         stance: what is known of it.
@@ -33,7 +33,7 @@ def carry(
         root_motion: as for :func:`motionrt.rigs.retarget_out.to_rig`.
     """
     to_file, pose = stance.to_world.T, _Pose(rig, local, motion.frames)
-    in_file: Turned = {joint: to_file @ turn for joint, turn in turned.items()}
+    in_file = _turned_by(to_file, turned)
     tree, hips = RigTree(rig.clip), stance.roles.joints["pelvis"]
     base = _trunk_base(tree, stance, hips)
     if base != hips:  # spine and pelvis hang on another joint, which goes with the pelvis
@@ -44,6 +44,13 @@ def carry(
     between = pose.rest_rotation(base).T @ (pose.rest_position(hips) - pose.rest_position(base))
     pose.place(base, pelvis @ to_file.T - in_file[base] @ between, in_file, mover)
     return pose.finish(in_file)
+
+
+def _turned_by(to_file: Array, turned: Turned) -> Turned:
+    """``turned`` in the axes of the file."""
+    for joint in turned:
+        turned[joint] = stored(lambda part: to_file @ part, turned[joint])
+    return turned
 
 
 class _Pose:

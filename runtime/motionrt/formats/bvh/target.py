@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import chain
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +14,7 @@ from motionrt.formats.bvh.euler import euler_degrees
 from motionrt.formats.bvh.hierarchy import BvhJoint
 from motionrt.formats.bvh.read import BvhText
 from motionrt.formats.bvh.rig import joints_with_differences
-from motionrt.formats.bvh.write import value_rows
+from motionrt.formats.bvh.write import value_rows, written_lines
 from motionrt.motion.skeleton import FloatArray
 from motionrt.rigs.clip import RigClip
 
@@ -31,8 +33,8 @@ class BvhTarget:
     text: BvhText
     clip: RigClip
 
-    def with_animation(self, clip: RigClip) -> bytes:
-        """The file with the frames of ``clip`` in the place of its own."""
+    def with_animation(self, clip: RigClip) -> Iterator[bytes]:
+        """The file with the frames of ``clip`` in the place of its own, line by line."""
         offsets = np.array([joint.offset or (0.0, 0.0, 0.0) for joint in self.text.joints])
         relative = set(joints_with_differences(self.text.joints, offsets, self._declared(offsets)))
         columns = []
@@ -40,9 +42,13 @@ class BvhTarget:
             if joint.channels:
                 places = clip.translations[:, j] - (offsets[j] if j in relative else 0)
                 columns.append(_channels(joint, clip.rotations[:, j], places, self.path))
-        rows = value_rows(columns)
-        head = [self.text.hierarchy.rstrip("\n"), "MOTION", f"Frames: {clip.frames}"]
-        return "\n".join([*head, f"Frame Time: {1 / clip.fps:.10f}", *rows, ""]).encode("utf-8")
+        head = [
+            self.text.hierarchy.rstrip("\n"),
+            "MOTION",
+            f"Frames: {clip.frames}",
+            f"Frame Time: {1 / clip.fps:.10f}",
+        ]
+        return written_lines(chain(head, value_rows(columns)))
 
     def _declared(self, offsets: np.ndarray) -> np.ndarray:
         """Translations ``(F, J, 3)`` as the file's own numbers give them."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import chain
 from pathlib import Path
@@ -73,7 +73,12 @@ def write_rig_bvh(clip: RigClip, path: str | Path, *, scale: float = 1.0) -> Pat
     writer = _Hierarchy(clip, scale, bone_tips(clip.names, clip.parents, clip.offsets))
     head = ["HIERARCHY", *writer.lines(0, ""), "MOTION", f"Frames: {clip.frames}", f"Frame Time: {1 / clip.fps:.10f}"]
     rows = value_rows(_columns(writer))
-    return write_atomically(path, lambda file: file.writelines(f"{line}\n".encode() for line in chain(head, rows)))
+    return write_atomically(path, lambda file: file.writelines(written_lines(chain(head, rows))))
+
+
+def written_lines(lines: Iterable[str]) -> Iterator[bytes]:
+    """Lines as a file holds them."""
+    return (f"{line}\n".encode() for line in lines)
 
 
 class _Hierarchy:
