@@ -67,12 +67,12 @@ class _Counted:
     """Values of a document so far, aliases written out."""
 
     def __init__(self, fail: Fail) -> None:
-        self._fail, self._nodes = fail, 0
+        self._fail, self._nodes, self._most = fail, 0, limits()
         self._open: list[tuple[str | None, int]] = []
         self._sizes: dict[str, int] = {}
 
     def take(self, event: Any) -> None:
-        kind, line = type(event).__name__, event.start_mark.line + 1
+        kind = type(event).__name__
         if kind == "AliasEvent":
             self._nodes += self._sizes.get(event.anchor, 1)
         elif kind in _OPENING:
@@ -86,10 +86,11 @@ class _Counted:
             self._nodes += 1
             if event.anchor is not None:
                 self._sizes[event.anchor] = 1
-        if len(self._open) > limits().nesting:
-            raise self._fail(f"is nested too deep: {how_to_raise('nesting')}", line)
-        if self._nodes > limits().yaml_nodes:
-            raise self._fail(f"holds too many values, aliases written out: {how_to_raise('yaml_nodes')}", line)
+        if len(self._open) > self._most.nesting:
+            raise self._fail(f"is nested too deep: {how_to_raise('nesting')}", event.start_mark.line + 1)
+        if self._nodes > self._most.yaml_nodes:
+            reason = f"holds too many values, aliases written out: {how_to_raise('yaml_nodes')}"
+            raise self._fail(reason, event.start_mark.line + 1)
 
 
 def _told(error: Any, fail: Fail) -> Exception:

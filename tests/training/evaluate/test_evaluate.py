@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from motions import walking
+from motions import random_motion, walking
 
 from motionrt.errors import InvalidInputError
 from motionrt.metrics import RECALL_AT
@@ -17,7 +17,7 @@ from motionrt.motion.features import guo263
 from motionrt_training.corpora import Clip, MotionCorpus
 from motionrt_training.corpora.pack import pack, rows_of
 from motionrt_training.corpora.reading import read_corpus
-from motionrt_training.evaluate.files import FilesRow
+from motionrt_training.evaluate.files import FilesRow, later_start
 from motionrt_training.evaluate.moments import evaluate_moments
 from motionrt_training.evaluate.pairs import PairSet, read_pairs
 from motionrt_training.evaluate.protocols import Protocols, by_style, evaluate
@@ -133,16 +133,23 @@ def test_moments_of_a_recording_with_two_halves_are_found_and_chance_is_lower() 
     assert wrong.mean_iou < 0.1
 
 
+@pytest.mark.parametrize("late", [-5, 0, 3])
+def test_the_later_start_of_one_of_two_files_of_a_recording_is_found(late: int) -> None:
+    motion = random_motion(60, fps=60.0)
+    one, other = motion[max(-late, 0) :], motion[max(late, 0) :]
+    assert later_start(one, other) == pytest.approx(late / 60)
+
+
 def test_the_report_names_pairs_baselines_and_moments() -> None:
     rows = evaluate(Oracle(), pairs_of(), unlike, Protocols(1))
     moment = evaluate_moments(Halves(), corpus_of(walking(180, fps=30)), (20,), style=0)
     styles, contrasts = by_style(Oracle(), pairs_of()), {"side": 90.0, "side_captions": 10.0, "path": 75.0}
     results = [Result(name, "4 pairs", rows, styles, contrasts) for name in ("exported", "no filter")]
-    files = [("exported", FilesRow(0.99, 0.98, 31))]
+    files = [("exported", FilesRow(0.99, 0.97, 0.98, 31))]
     page = Report("evaluate it", "toy.npz", results[:1], results[1:], files, [MomentLine("short", moment)]).markdown()
     assert "Written by `evaluate it` from `toy.npz`: whose data it is, is not stated." in page
     assert "| no filter | 4 | 100.0 |" in page
     assert "| exported | 4 pairs | 90.0 | 10 | 75.0 | nan |" in page
-    assert "| exported | 31 | 0.9900 | 0.9800 |" in page
+    assert "| exported | 31 | 0.9900 | 0.9700 | 0.9800 |" in page
     assert "| short | 2 | 1 |" in page
     assert "HumanML3D, (a) all" in page

@@ -99,8 +99,11 @@ def _contrast_table(results: Sequence[Result]) -> str:
 
 
 def _files_table(files: Sequence[tuple[str, FilesRow]]) -> str:
-    head = ["model", "recordings", "mean cosine", "least"]
-    return markdown(head, [[name, row.recordings, f"{row.mean:.4f}", f"{row.least:.4f}"] for name, row in files])
+    head = ["model", "recordings", "mean cosine", "least", "least, starts aligned"]
+    cosines = [(row.mean, row.least, row.least_aligned) for _, row in files]
+    body = [[name, row.recordings, *(f"{x:.4f}" for x in these)]
+            for (name, row), these in zip(files, cosines, strict=True)]  # fmt: skip
+    return markdown(head, body)
 
 
 _INTRODUCTION = """# Search: results
