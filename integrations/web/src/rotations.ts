@@ -58,26 +58,27 @@ export function rotationBetween(source: Numbers, target: Numbers): number[] {
   return out;
 }
 
-/** The nearest rotation (Frobenius norm): the polar factor, by Newton's iteration; null far from any. */
-export function nearestRotation(m: Numbers): number[] | null {
-  let x = Array.from(m);
+/** Replaces nine numbers from `at` on by the nearest rotation (Frobenius norm): the polar factor, by Newton's iteration; false far from any. */
+export function turnNearest(m: Float64Array, at: number): boolean {
+  let [a, b, c, d, e, f, g, h, i] = [m[at], m[at + 1], m[at + 2], m[at + 3], m[at + 4], m[at + 5], m[at + 6], m[at + 7], m[at + 8]];
   for (let step = 0; step < 30; step++) {
-    const c = [
-      x[4] * x[8] - x[5] * x[7], x[5] * x[6] - x[3] * x[8], x[3] * x[7] - x[4] * x[6],
-      x[2] * x[7] - x[1] * x[8], x[0] * x[8] - x[2] * x[6], x[1] * x[6] - x[0] * x[7],
-      x[1] * x[5] - x[2] * x[4], x[2] * x[3] - x[0] * x[5], x[0] * x[4] - x[1] * x[3],
-    ];
-    const determinant = x[0] * c[0] + x[1] * c[1] + x[2] * c[2];
-    if (!(determinant > 1e-9)) return null;
-    let change = 0;
-    for (let i = 0; i < 9; i++) {
-      const next = (x[i] + c[i] / determinant) / 2;
-      change = Math.max(change, Math.abs(next - x[i]));
-      x[i] = next;
-    }
+    const [A, B, C] = [e * i - f * h, f * g - d * i, d * h - e * g]; // cofactors
+    const [D, E, F] = [c * h - b * i, a * i - c * g, b * g - a * h];
+    const [G, H, I] = [b * f - c * e, c * d - a * f, a * e - b * d];
+    const determinant = a * A + b * B + c * C;
+    if (!(determinant > 1e-9)) return false;
+    const [a1, b1, c1] = [(a + A / determinant) / 2, (b + B / determinant) / 2, (c + C / determinant) / 2];
+    const [d1, e1, f1] = [(d + D / determinant) / 2, (e + E / determinant) / 2, (f + F / determinant) / 2];
+    const [g1, h1, i1] = [(g + G / determinant) / 2, (h + H / determinant) / 2, (i + I / determinant) / 2];
+    const change = Math.max(
+      Math.abs(a1 - a), Math.abs(b1 - b), Math.abs(c1 - c), Math.abs(d1 - d), Math.abs(e1 - e), Math.abs(f1 - f),
+      Math.abs(g1 - g), Math.abs(h1 - h), Math.abs(i1 - i),
+    );
+    [a, b, c, d, e, f, g, h, i] = [a1, b1, c1, d1, e1, f1, g1, h1, i1];
     if (change < 1e-15) break;
   }
-  return x;
+  m[at] = a, m[at + 1] = b, m[at + 2] = c, m[at + 3] = d, m[at + 4] = e, m[at + 5] = f, m[at + 6] = g, m[at + 7] = h, m[at + 8] = i;
+  return true;
 }
 
 /** Unit quaternion [w, x, y, z] with w >= 0. */

@@ -1,7 +1,7 @@
 // WalkNet at stride 1 [docs/embedding.md]: characters that walk, all of them by one frame (1/30 s) a call.
 import start from "./data/start.json";
 import { InvalidInputError, MotionRTError } from "./errors";
-import { aboutY, apply, multiply, nearestRotation, type Vec3 } from "./rotations";
+import { aboutY, turnNearest, type Vec3 } from "./rotations";
 import { numbers, type Sessions, type Tensors } from "./sessions";
 import { JOINTS } from "./skeleton";
 
@@ -54,7 +54,10 @@ export class Crowd {
     if (goals.length !== count || goals.some(({ x, z, heading }) => !Number.isFinite(x + z + heading)))
       throw new InvalidInputError(`goals must be ${count} finite places { x, z, heading }`);
     const seen = new Float32Array(count * HISTORY * WIDTH);
-    this.histories.forEach((history, i) => history.forEach((frame, f) => seen.set(toGoal(frame, goals[i]), (i * HISTORY + f) * WIDTH)));
+    this.histories.forEach((history, i) => {
+      const { x, z, heading } = goals[i], turn = aboutY(-heading);
+      history.forEach((frame, f) => put(frame, turn, x, z, seen, (i * HISTORY + f) * WIDTH));
+    });
     const speed = Float32Array.from({ length: count }, (_, i) => (typeof speeds === "number" ? speeds : speeds[i]));
     const feeds: Tensors = { frames: this.sessions.float(seen, [count, HISTORY, WIDTH]), speed: this.sessions.float(speed, [count]) };
     if ((await this.sessions.session("walknet")).inputNames.includes("wish")) feeds.wish = this.sessions.float(new Float32Array(count * WISHES), [count, WISHES]); // none
@@ -73,29 +76,36 @@ function checkHistory(history: readonly ArrayLike<number>[]): void {
     throw new InvalidInputError(`a history is ${HISTORY} frames of ${WIDTH} numbers`);
 }
 
-/** The goal becomes the origin, its heading +Z. Heights stay; only the pelvis changes. */
-export function toGoal(frame: Frame, { x, z, heading }: Goal): Frame {
-  return turned(frame, aboutY(-heading), [frame[ROOT] - x, frame[ROOT + 1], frame[ROOT + 2] - z], [0, 0, 0]);
+/** A frame into `out` as seen from a goal, which becomes the origin, its heading +Z. Heights stay; only the pelvis changes. */
+function put(frame: Frame, turn: readonly number[], x: number, z: number, out: Float32Array, at: number): void {
+  out.set(frame, at);
+  turnPelvis(frame, turn, [frame[ROOT] - x, frame[ROOT + 1], frame[ROOT + 2] - z], out, at);
 }
 
-/** Inverse of `toGoal`. */
+/** A frame as seen from a goal back in the world. */
 export function fromGoal(frame: Frame, { x, z, heading }: Goal): Frame {
-  return turned(frame, aboutY(heading), [frame[ROOT], frame[ROOT + 1], frame[ROOT + 2]], [x, 0, z]);
+  const out = frame.slice();
+  turnPelvis(frame, aboutY(heading), [frame[ROOT], frame[ROOT + 1], frame[ROOT + 2]], out, 0);
+  out[ROOT] += x;
+  out[ROOT + 2] += z;
+  return out;
 }
 
-function turned(frame: Frame, turn: number[], root: Vec3, moved: Vec3): Frame {
-  const out = frame.slice();
-  out.set(multiply(turn, frame.subarray(0, 9)), 0);
-  apply(turn, root).forEach((value, i) => (out[ROOT + i] = value + moved[i]));
-  return out;
+/** Turns the rotation of the pelvis, and `root`, about the vertical. */
+function turnPelvis(frame: Frame, turn: readonly number[], [x, y, z]: Vec3, out: Frame | Float32Array, at: number): void {
+  const [c, s] = [turn[0], turn[2]];
+  for (let j = 0; j < 3; j++) {
+    out[at + j] = c * frame[j] + s * frame[6 + j];
+    out[at + 6 + j] = c * frame[6 + j] - s * frame[j];
+  }
+  out[at + ROOT] = c * x + s * z;
+  out[at + ROOT + 1] = y;
+  out[at + ROOT + 2] = c * z - s * x;
 }
 
 function onRotations(predicted: Float32Array): Frame {
   const out = Float64Array.from(predicted);
-  for (let j = 0; j < JOINTS; j++) {
-    const rotation = nearestRotation(out.subarray(9 * j, 9 * j + 9));
-    if (!rotation) throw new MotionRTError("the model predicts no rotation: check the history, and the model's file");
-    out.set(rotation, 9 * j);
-  }
+  for (let j = 0; j < JOINTS; j++)
+    if (!turnNearest(out, 9 * j)) throw new MotionRTError("the model predicts no rotation: check the history, and the model's file");
   return out;
 }
