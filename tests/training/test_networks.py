@@ -7,6 +7,7 @@ import pytest
 torch = pytest.importorskip("torch", reason="training tests need torch (extra 'train')")
 
 from motionrt_training.networks.actor import ActorDecoder, ActorEncoder, patched  # noqa: E402
+from motionrt_training.networks.gru import GruEncoder, last_valid  # noqa: E402
 from motionrt_training.networks.tmr import TMR  # noqa: E402
 from motionrt_training.networks.transformer import (  # noqa: E402
     Dropout,
@@ -138,3 +139,35 @@ def test_dropout_drops_its_rate_and_keeps_the_mean() -> None:
 def test_a_width_that_the_heads_do_not_divide_is_refused() -> None:
     with pytest.raises(ValueError, match="not a multiple"):
         MultiHeadSelfAttention(10, 4)
+
+
+@pytest.mark.parametrize(("frames", "halvings"), [(1, 2), (7, 2), (12, 0), (30, 2)])
+def test_a_recurrent_encoder_gives_unit_points_that_padding_does_not_change(frames: int, halvings: int) -> None:
+    torch.manual_seed(0)
+    net, x = GruEncoder(6, d=8, hidden=10, halvings=halvings).eval(), torch.randn(2, 37, 6)
+    alone = net(x[:1, :frames], mask_of(frames))
+    padded = net(x, mask_of(frames, 37))
+    torch.testing.assert_close(padded.mu[:1], alone.mu, atol=1e-6, rtol=1e-5)
+    torch.testing.assert_close(padded.mu.norm(dim=-1), torch.ones(2))
+    torch.testing.assert_close(padded.sample(), padded.mu, atol=1e-3, rtol=0)
+
+
+def test_a_recurrent_encoder_without_convolutions_is_torchs_gru_over_the_projected_tokens() -> None:
+    torch.manual_seed(0)
+    net, x = GruEncoder(6, d=8, hidden=10).eval(), torch.randn(1, 9, 6)
+    _, ends = net.gru(torch.nn.functional.leaky_relu(net.project(x), 0.2))
+    raw = net.out(net.head(torch.cat((ends[0], ends[1]), dim=-1)))
+    torch.testing.assert_close(net(x, mask_of(9)).mu, raw / raw.norm(), atol=1e-6, rtol=1e-5)
+
+
+def test_hidden_tokens_inside_a_text_count_as_silence_and_not_as_its_end() -> None:
+    mask = torch.tensor([[True, False, True, False], [True, False, False, False], [False] * 4])
+    assert last_valid(mask).tolist() == [3, 1, 1]
+
+
+def test_the_rival_is_told_by_its_configuration_and_others_keep_theirs() -> None:
+    rival = TMR(d=8, layers=1, heads=2, ff=8, encoder="gru")
+    assert isinstance(rival.motion_encoder, GruEncoder)
+    again = TMR(**rival.config)
+    again.load_state_dict(rival.state_dict())
+    assert "encoder" not in TMR(d=8, layers=1, heads=2, ff=8).config

@@ -16,12 +16,21 @@ torch = pytest.importorskip("torch", reason="training tests need torch (extra 't
 pytest.importorskip("safetensors", reason="training tests need safetensors (extra 'train')")
 pytest.importorskip("tqdm", reason="training tests need tqdm (extra 'train')")
 
+from motionrt.errors import InvalidInputError  # noqa: E402
 from motionrt.motion.features import guo263  # noqa: E402
 from motionrt_training.augment import Augmentation, View, draw_view, view_motion, view_slots, view_text  # noqa: E402
 from motionrt_training.batches import EpochPlan  # noqa: E402
 from motionrt_training.checkpoint import load_any, load_release, load_state, release  # noqa: E402
 from motionrt_training.networks.tmr import TMR  # noqa: E402
-from motionrt_training.packed import PackedClip, PackedCorpus, Window, load_packed, mirror_columns, statistics  # noqa: E402
+from motionrt_training.packed import (  # noqa: E402
+    PackedClip,
+    PackedCorpus,
+    Window,
+    load_packed,
+    mirror_columns,
+    statistics,
+    without_source,
+)
 from motionrt_training.recipes.tmr import parser  # noqa: E402
 from motionrt_training.text_cache import TextFeatures, cached_features  # noqa: E402
 from motionrt_training.tmr_task import TmrSettings, TmrTask  # noqa: E402
@@ -119,6 +128,7 @@ def test_eight_pairs_are_learned_by_heart(tmp_path: Path, bf16: bool) -> None:
         (TmrSettings(contrastive=False), {"reconstruction"}),
         (TmrSettings(reconstruction=False), {"contrastive"}),
         (TmrSettings(margin=True, reconstruct="both"), {"contrastive", "reconstruction"}),
+        (TmrSettings(margin=True, reconstruction=False, encoder="gru", contrast="mean"), {"contrastive"}),
     ],
 )
 def test_the_ablation_switches_remove_their_terms(settings: TmrSettings, present: set[str]) -> None:
@@ -185,6 +195,17 @@ def test_statistics_leave_the_test_split_out() -> None:
     mean, std = statistics(PackedCorpus(features, tuple(clips), np.negative))
     np.testing.assert_allclose(mean, 0.0)  # ones and their mirror images, which are minus ones here
     assert (std > 0).all()
+
+
+def test_a_source_is_left_out_of_training_and_validation_and_can_still_be_searched() -> None:
+    rows = [("train", "a"), ("train", "b"), ("val", "a"), ("test", "a"), ("test", "b"), ("train", "")]
+    clips = [PackedClip(f"{i}", split, 0, 1, ("x",), ("x",), source=s) for i, (split, s) in enumerate(rows)]
+    corpus = without_source(PackedCorpus(np.zeros((1, 3), np.float16), tuple(clips), np.negative), "a")
+    assert [clip.id for clip in corpus.split("train")] == ["1"]  # what names no source may hold some of it
+    assert corpus.split("val") == []
+    assert [clip.id for clip in corpus.split("test")] == ["3", "4"]
+    with pytest.raises(InvalidInputError, match=r"no clip is of the source 'c'; the corpus has a, b"):
+        without_source(corpus, "c")
 
 
 def test_a_release_holds_the_averaged_weights_in_half_precision(tmp_path: Path) -> None:

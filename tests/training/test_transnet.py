@@ -236,6 +236,15 @@ def test_other_windows_than_the_shipped_one_can_be_trained(window: int) -> None:
     torch.testing.assert_close(frames[:, :SEED], batch["frames"][:, :SEED], atol=0, rtol=0)
 
 
+def test_the_published_loss_is_the_squared_error_of_the_hidden_frames_alone() -> None:
+    task = recipe.TransNetTask(corpus(), dataclasses.replace(SETTINGS, loss="l2"), seed=0)
+    batch, off = task.batch(9), torch.zeros(219)
+    off[3], off[217] = 0.1, 0.3
+    found = task.losses(lambda frames, hidden: frames + off * hidden[..., None], batch)
+    assert float(found["loss"]) == pytest.approx(0.1, rel=1e-4)  # 0.01 + 0.09, whatever the windows' lengths
+    assert set(found) == {"loss", "feature"}
+
+
 def test_impossible_windows_and_short_recordings_are_refused() -> None:
     for window in (70, 122):
         with pytest.raises(InvalidInputError, match="--window must be a multiple of --patch, at least 80"):

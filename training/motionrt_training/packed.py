@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from pathlib import Path
 from typing import Any, TypeVar, cast
@@ -12,6 +12,7 @@ from typing import Any, TypeVar, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from motionrt.errors import InvalidInputError
 from motionrt.motion.features import guo263
 from motionrt.motion.skeleton import SMPL22_JOINTS, SMPL24
 
@@ -85,6 +86,22 @@ def load_packed(path: str | Path) -> PackedCorpus:
         raise ValueError(f"{path}: its arrays do not fit each other; pack the corpus again")
     clips = [_clip(row, start, length) for row, start, length in zip(meta, starts, lengths, strict=True)]
     return PackedCorpus(features, tuple(clips))
+
+
+def without_source(corpus: PackedCorpus, source: str) -> PackedCorpus:
+    """The corpus with nothing of a source in train and val; its test clips stay, to be searched by who never saw them.
+
+    Clips that name no source, such as those that join two others, may hold some of it and go as well.
+
+    Raises:
+        InvalidInputError: no clip is of that source.
+    """
+    sources = sorted({clip.source for clip in corpus.clips if clip.source})
+    if source not in sources:
+        raise InvalidInputError(f"no clip is of the source '{source}'; the corpus has {', '.join(sources) or 'none'}")
+    gone = {source, ""}
+    clips = (replace(c, split="left out") if c.source in gone and c.split != "test" else c for c in corpus.clips)
+    return replace(corpus, clips=tuple(clips))
 
 
 def statistics(corpus: PackedCorpus, *, equalise: bool = True) -> tuple[NDArray[np.float32], NDArray[np.float32]]:

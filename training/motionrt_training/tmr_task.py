@@ -63,6 +63,7 @@ class TmrSettings:
     equalise: bool = option(True, "one standard deviation per kind of feature")
     rotations: bool = option(True, "the motion encoder sees the rotations, which follow from the positions")
     decoder_layers: int | None = option(None, "layers of the decoder; none takes --layers")
+    encoder: str = option("transformer", "kind of both encoders; gru is Guo's, a rival", ("transformer", "gru"))
     twins: bool = option(True, "the mirror image of every clip and caption is in the same batch (not in the paper)")
     straightened: bool = option(
         True, "clips that name a path are negatives of it without their turn (not in the paper)"
@@ -228,7 +229,7 @@ def build(corpus: PackedCorpus, texts: TextFeatures, settings: TmrSettings) -> T
     width = corpus.features.shape[1]
     slots = [size - 1 for size in SLOTS.values()] if s.slots and has_slots(corpus) else []
     sizes = (s.d, s.layers, s.heads, s.ff, s.dropout, s.patch, s.decoder_layers)
-    model = TMR(texts.tokens.shape[1], width, *sizes, slots)
+    model = TMR(texts.tokens.shape[1], width, *sizes, slots, encoder=s.encoder)
     mean, std = statistics(corpus, equalise=s.equalise)
     if width == guo263.WIDTH and not s.rotations:
         std[guo263.ROTATIONS] = UNSEEN

@@ -8,7 +8,15 @@ from pathlib import Path
 import pytest
 
 from motionrt_training.checkpoint import save_atomically
-from motionrt_training.evaluate.ablations import TABLES, command_of, folder_of, main, retrieval_page, train_rows
+from motionrt_training.evaluate.ablations import (
+    TABLES,
+    command_of,
+    folder_of,
+    main,
+    retrieval_page,
+    train_rows,
+    trained,
+)
 from motionrt_training.recipes import temos, tmr
 
 RECIPES = {"tmr": tmr, "temos": temos}
@@ -32,7 +40,7 @@ def test_every_row_is_understood_by_its_recipe_and_has_the_same_budget(name: str
 def test_the_published_rows_are_there() -> None:
     assert [row.name for row in TABLES["filtering"].rows if "paper" in row.name] == ["0.8 (the paper's)"]
     rows = [row for row in TABLES["synthetic"].rows if row.name.startswith("real pairs") and "random" not in row.name]
-    assert [row.options.rpartition(" ")[2] for row in rows] == ["0.0", "0.25", "0.5", "1.0"]
+    assert [row.options.rpartition(" ")[2] for row in rows] == ["0", "0.25", "0.5", "1"]
 
 
 def test_rows_are_trained_once_and_their_own_measures_make_the_page(tmp_path: Path) -> None:
@@ -47,14 +55,16 @@ def test_rows_are_trained_once_and_their_own_measures_make_the_page(tmp_path: Pa
     train_rows(table, options(tmp_path), train)
     train_rows(table, options(tmp_path), train)
     assert len(asked) == len(table.rows)
-    page = retrieval_page(table, tmp_path)
+    page = retrieval_page(table, trained(table, options(tmp_path)), tmp_path)
     assert "| margin loss | 7 | 2.0 | 13.0 | nan |" in page
 
 
 def test_tables_share_what_is_trained_alike() -> None:
     inputs, synthetic = TABLES["inputs"], TABLES["synthetic"]
+    alone = TABLES["synthetic"].rows[4]
+    assert alone.name == "no real pairs, 0 % synthetic"
     singles = [folder_of(Path("x"), inputs, row) for row in inputs.rows[:2]]
-    assert singles[0] == singles[1]
+    assert singles[0] == singles[1] == folder_of(Path("x"), synthetic, alone)
     sinc = folder_of(Path("x"), inputs, inputs.rows[3])
     assert sinc in [folder_of(Path("x"), synthetic, row) for row in synthetic.rows]
 
@@ -64,3 +74,16 @@ def test_the_list_is_printed_and_missing_captions_are_named(tmp_path: Path, caps
     assert len(capsys.readouterr().out.splitlines()) == len(TABLES["losses"].rows)
     with pytest.raises(SystemExit, match="error: SINC, Table 3 needs --captions"):
         main(["synthetic", "--corpus", "a.npz", "--out", str(tmp_path)])
+
+
+def test_only_the_rows_that_are_there_are_measured_when_nothing_is_to_be_trained(tmp_path: Path) -> None:
+    table = TABLES["rivals"]
+    asked = ["rivals", "--corpus", "a.npz", "--out", str(tmp_path), "--minutes", "6", "--trained"]
+    with pytest.raises(SystemExit, match="error: no row of the table is trained in"):
+        main(asked)
+    state = {"measures": {"test_t2m_R1": 12.5}, "step": 9, "elapsed": 360.0}
+    save_atomically(state, folder_of(tmp_path, table, table.rows[0]) / "best.pt")
+    main(asked)
+    lines = (tmp_path / "rivals.md").read_text(encoding="utf-8").splitlines()
+    assert lines[-1].startswith("| Guo-style: GRUs, margin loss | 9 | 6.0 | 12.5 |")
+    assert len([line for line in lines if line.startswith("|")]) == 3

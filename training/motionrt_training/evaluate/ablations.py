@@ -5,7 +5,7 @@
         --captions runs/mine/captions.jsonl --score runs/score/best.pt --minutes 10
 
 Rows that are there already are not trained again, so that the command can be given in pieces; `--list` only prints what
-would run. `--also` adds options to every row, such as `--layers 3`.
+would run, `--trained` only measures what is there. `--also` adds options to every row, such as `--layers 3`.
 """
 
 from __future__ import annotations
@@ -22,6 +22,7 @@ from motionrt.errors import InvalidInputError
 from motionrt_training.checkpoint import load_state
 from motionrt_training.command import reports_errors
 from motionrt_training.evaluate import generation
+from motionrt_training.evaluate.simultaneous import LONGEST
 from motionrt_training.evaluate.tables import markdown
 
 Run = Callable[[list[str]], None]
@@ -51,12 +52,14 @@ def _values(option: str, *values: object, paper: object) -> tuple[Row, ...]:
 
 
 OURS = "--patch 8 --batch 40 --no-rotations --contrastive-weight 0.5 --token-dropout 0.1"
+PLAIN = "--no-twins --no-straightened --slots 0 --spoken 0"
+POINTS = "--no-reconstruction --contrast mean --kl-weight 0 --latent-weight 0"
 SINGLES = "--captions 0 --no-pairs"
 LABELS = "--captions 0"
 TABLES: Mapping[str, Table] = {
     "losses": Table("TMR, Table 3", "tmr", (
         Row("reconstruction, no contrast (TEMOS)", "--no-contrastive"),
-        Row("contrast alone", "--no-reconstruction --contrast mean --kl-weight 0 --latent-weight 0"),
+        Row("contrast alone", POINTS),
         Row("margin loss", "--margin"),
         Row("InfoNCE, no filtering", "--threshold none"),
         Row("InfoNCE, filtering", "--no-directions"),
@@ -73,6 +76,12 @@ TABLES: Mapping[str, Table] = {
     )),
     "batch": Table("TMR, sweep of the batch", "tmr", _values("--batch", 16, 32, 64, 128, paper=32)),
     "width": Table("TMR, sweep of the latent", "tmr", _values("--d", 64, 128, 256, 512, paper=256)),
+    "rivals": Table("TMR, Tables 1 and 2", "tmr", (
+        Row("Guo-style: GRUs, margin loss", f"{PLAIN} {POINTS} --batch 40 --no-rotations --encoder gru --margin"),
+        Row("TEMOS-style: no contrast", f"{OURS} {PLAIN} --no-contrastive"),
+        Row("TMR, no choices of ours", f"{OURS} {PLAIN}"),
+        Row("as shipped, small", OURS),
+    )),
     "choices": Table("Search, what is not in the papers", "tmr", (
         Row("as shipped, small", OURS),
         Row("no mirror twins in the batch", f"{OURS} --no-twins"),
@@ -89,8 +98,8 @@ TABLES: Mapping[str, Table] = {
         Row("SINC", f"{LABELS} --synthetic 0.5"),
     )),
     "synthetic": Table("SINC, Table 3", "temos", (
-        *(Row(f"real pairs, {share} % synthetic", f"{LABELS} --synthetic {share / 100}") for share in (0, 25, 50, 100)),
-        *(Row(f"no real pairs, {share} % synthetic", f"{SINGLES} --synthetic {share / 100}") for share in (0, 50, 100)),
+        *(Row(f"real pairs, {100 * p:g} % synthetic", f"{LABELS} --synthetic {p:g}") for p in (0, 0.25, 0.5, 1)),
+        *(Row(f"no real pairs, {100 * p:g} % synthetic", f"{SINGLES} --synthetic {p:g}") for p in (0, 0.5, 1)),
         Row("real pairs, 50 % of random parts", f"{LABELS} --synthetic 0.5 --random-parts"),
         Row("no real pairs, 100 % of random parts", f"{SINGLES} --synthetic 1 --random-parts"),
     )),
@@ -119,29 +128,40 @@ def train_rows(table: Table, args: argparse.Namespace, run: Run) -> None:
             run(command_of(table, row, args))
 
 
-def retrieval_page(table: Table, out: Path) -> str:
+def trained(table: Table, args: argparse.Namespace) -> list[Row]:
+    """The rows of a table that are there."""
+    return [row for row in table.rows if (folder_of(args.out, table, row) / "best.pt").is_file()]
+
+
+def retrieval_page(table: Table, rows: Sequence[Row], out: Path) -> str:
     """Rows of a table of TMR as their checkpoints measured them: the test split, all against all."""
     head = ["", "steps", "minutes", *(name.replace("_", " ") for name in SCORES)]
     body = []
-    for row in table.rows:
+    for row in rows:
         state = load_state(folder_of(out, table, row) / "best.pt")
         figures = [state["measures"].get(f"test_{name}", float("nan")) for name in SCORES]
         body.append([row.name, state["step"], f"{state['elapsed'] / 60:.1f}", *(f"{value:.1f}" for value in figures)])
     return markdown(head, body)
 
 
-def pair_page(table: Table, args: argparse.Namespace) -> str:
-    """Rows of a table of SINC, measured by `evaluate.generation pairs`."""
+def pair_page(table: Table, rows: Sequence[Row], args: argparse.Namespace) -> str:
+    """Rows of a table of SINC: how long they were trained, then measured by `evaluate.generation pairs`."""
     page = args.out / f"{args.table}-pairs.md"
     words = ["pairs", "--recordings", str(args.corpus), "--captions", str(args.captions), "-o", str(page)]
     words += ["--encoder", str(args.score)] if args.score else []
-    for row in table.rows:
-        words += ["--row", f"{row.name}={row.way}:{folder_of(args.out, table, row) / 'best.pt'}"]
+    words += ["--samples", str(args.samples), "--longest", str(args.longest)]
+    budget = []
+    for row in rows:
+        path = folder_of(args.out, table, row) / "best.pt"
+        words += ["--row", f"{row.name}={row.way}:{path}"]
+        state = load_state(path)
+        budget.append([row.name, row.options, state["step"], f"{state['elapsed'] / 60:.1f}"])
     generation.main(words)
-    return page.read_text(encoding="utf-8")
+    return f"{markdown(['', 'options', 'steps', 'minutes'], budget)}\n\n{page.read_text(encoding='utf-8')}"
 
 
-def _run(words: list[str]) -> None:
+def run_command(words: list[str]) -> None:
+    """Say a command and run it; CalledProcessError when it fails."""
     print(shlex.join(words), flush=True)
     subprocess.run(words, check=True)
 
@@ -157,7 +177,10 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--out", type=Path, required=True, help="folder of the runs and of the page")
     parser.add_argument("--minutes", type=float, default=10.0, help="of training for each row (default: %(default)s)")
     parser.add_argument("--also", default="", help="options for every row, as one word: '--layers 3 --threads 1'")
+    parser.add_argument("--samples", type=int, default=0, help="SINC: samples of every pair beside its mean latent")
+    parser.add_argument("--longest", type=int, default=LONGEST, help="SINC: frames of a pair (default: %(default)s)")
     parser.add_argument("--list", action="store_true", help="only print the commands")
+    parser.add_argument("--trained", action="store_true", help="train nothing, measure the rows that are there")
     args = parser.parse_args(arguments)
     table = TABLES[args.table]
     if table.recipe == "temos" and args.captions is None:
@@ -165,8 +188,12 @@ def main(arguments: Sequence[str] | None = None) -> None:
     if args.list:
         print("\n".join(shlex.join(command_of(table, row, args)) for row in table.rows))
         return
-    train_rows(table, args, _run)
-    body = retrieval_page(table, args.out) if table.recipe == "tmr" else pair_page(table, args)
+    if not args.trained:
+        train_rows(table, args, run_command)
+    rows = trained(table, args)
+    if not rows:
+        raise InvalidInputError(f"no row of the table is trained in {args.out}; leave out --trained")
+    body = retrieval_page(table, rows, args.out) if table.recipe == "tmr" else pair_page(table, rows, args)
     heading = f"# {table.paper}\n\nEach row was trained for {args.minutes:g} minutes {args.also}".rstrip()
     page = args.out / f"{args.table}.md"
     page.write_text(f"{heading}, on {args.corpus}.\n\n{body}\n", encoding="utf-8", newline="\n")

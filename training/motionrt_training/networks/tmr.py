@@ -1,4 +1,7 @@
-"""TMR: text and motion encoders into one space, and a motion decoder out of it (Petrovich et al. 2023)."""
+"""TMR: text and motion encoders into one space, and a motion decoder out of it (Petrovich et al. 2023).
+
+`encoder="gru"` is the rival of its tables 1 and 2 in kind, recurrent encoders of Guo et al. 2022; it is only compared.
+"""
 
 from __future__ import annotations
 
@@ -8,6 +11,7 @@ import torch
 from torch import Tensor, nn
 
 from motionrt_training.networks.actor import ActorDecoder, ActorEncoder, Distribution
+from motionrt_training.networks.gru import GruEncoder
 
 
 class TMR(nn.Module):
@@ -28,8 +32,11 @@ class TMR(nn.Module):
         patch: int = 1,
         decoder_layers: int | None = None,
         slots: Sequence[int] = (),
+        *,
+        encoder: str = "transformer",
     ) -> None:
         super().__init__()
+        gru = encoder == "gru"
         self.config = {
             "text_dim": text_dim,
             "motion_dim": motion_dim,
@@ -41,9 +48,13 @@ class TMR(nn.Module):
             "patch": patch,
             "decoder_layers": decoder_layers or layers,
             "slots": list(slots),
+            **({"encoder": encoder} if gru else {}),
         }
-        self.text_encoder = ActorEncoder(text_dim, d, layers, heads, ff, dropout)
-        self.motion_encoder = ActorEncoder(motion_dim, d, layers, heads, ff, dropout, patch)
+        sizes = (d, layers, heads, ff, dropout)
+        self.text_encoder = GruEncoder(text_dim, d, dropout=dropout) if gru else ActorEncoder(text_dim, *sizes)
+        self.motion_encoder = (
+            GruEncoder(motion_dim, d, dropout=dropout, halvings=2) if gru else ActorEncoder(motion_dim, *sizes, patch)
+        )
         self.motion_decoder = ActorDecoder(motion_dim, d, decoder_layers or layers, heads, ff, dropout, patch)
         self.slots = nn.Linear(d, sum(slots)) if slots else None  # what either latent says of each slot of motion
         self.register_buffer("motion_mean", torch.zeros(motion_dim))
