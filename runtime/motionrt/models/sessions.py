@@ -52,6 +52,7 @@ class Sessions:
         self.threads = thread_count(threads)
         self._options = session_options
         self._opened: dict[tuple[str, str], InferenceSession] = {}
+        self._prepared: set[tuple[str, str | None]] = set()
         self._locks: defaultdict[tuple[str, str], threading.Lock] = defaultdict(threading.Lock)
         self._lock = threading.Lock()
 
@@ -81,10 +82,12 @@ class Sessions:
             return self._opened[key]
 
     def prepare(self, *models: str, variant: str | None = None) -> None:
-        """Start to open models in the background; what goes wrong is raised when their session is asked for."""
+        """Start to open models in the background, once; what goes wrong is raised when their session is asked for."""
         engine()  # once, before the threads ask for it together
         for model in models:
-            threading.Thread(target=self._try_to_open, args=(model, variant)).start()
+            if (model, variant) not in self._prepared:
+                self._prepared.add((model, variant))
+                threading.Thread(target=self._try_to_open, args=(model, variant)).start()
 
     def run(
         self, model: str, outputs: list[str], feeds: Arrays, variant: str | None = None

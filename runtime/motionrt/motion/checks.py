@@ -41,18 +41,30 @@ def frozen(array: FloatArray, name: str, shape: tuple[int, ...]) -> FloatArray:
 def check_rotations(rotations: FloatArray, names: Sequence[str]) -> None:
     """InvalidInputError unless all of ``(F, J, 3, 3)`` are rotations: orthonormal and right-handed."""
     for first in range(0, len(rotations), BATCH):
-        x, y, z = np.moveaxis(rotations[first : first + BATCH], -2, 0)
-        with np.errstate(over="ignore", invalid="ignore"):
-            off = np.maximum(abs((x * x).sum(-1) - 1), abs((y * y).sum(-1) - 1))
-            off = np.maximum(off, abs((x * y).sum(-1)))
-            for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):  # the cross product, at a third of the time of NumPy's
-                off = np.maximum(off, abs(x[..., i] * y[..., j] - x[..., j] * y[..., i] - z[..., k]))
+        part = rotations[first : first + BATCH]
+        off = _off_rotations(part).reshape(part.shape[:2])
         if not (off <= NOT_A_ROTATION).all():
             frame, joint = (int(i) for i in np.argwhere(~(off <= NOT_A_ROTATION))[0])
             raise InvalidInputError(
                 f"rotations holds a matrix that is no rotation, first in frame {first + frame} at '{names[joint]}': "
                 "its rows must have unit length, be at right angles and right-handed"
             )
+
+
+def _off_rotations(matrices: FloatArray) -> FloatArray:
+    """``(N,)``: by how much rows of matrices ``[..., 3, 3]`` miss unit length, right angles, and a right-handed frame."""
+    a, b, c, d, e, f, g, h, i = np.ascontiguousarray(matrices.reshape(-1, 9).T)  # entry by entry: no strides
+    with np.errstate(over="ignore", invalid="ignore"):
+        off = np.abs(a * a + b * b + c * c - 1)
+        for miss in (
+            d * d + e * e + f * f - 1,
+            a * d + b * e + c * f,
+            b * f - c * e - g,
+            c * d - a * f - h,
+            a * e - b * d - i,
+        ):
+            np.maximum(off, np.abs(miss), out=off)
+    return off
 
 
 def check_root(root: FloatArray) -> None:
