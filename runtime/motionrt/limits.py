@@ -51,7 +51,7 @@ class Limits:
         pixels: pixels of a map.
         cells: cells of a scene's grid.
         samples: samples of a mesh's surface.
-        stretched_samples: samples of a mesh's surface, or a thousand times as many as it has triangles.
+        stretched_samples: samples of a mesh's surface, or five hundred times as many as it has triangles.
         triangles: triangles of a mesh.
         cloud_points: points of a semantic cloud.
         upload_bytes: bytes that one window of the studio may upload, as received.
@@ -79,8 +79,8 @@ class Limits:
     path_points: int = 100_000
     pixels: int = 25_000_000
     cells: int = 25_000_000
-    samples: int = 30_000_000
-    stretched_samples: int = 8_000_000
+    samples: int = 15_000_000
+    stretched_samples: int = 12_000_000
     triangles: int = 5_000_000
     cloud_points: int = 20_000_000
     upload_bytes: int = 64 * 2**20

@@ -52,10 +52,10 @@ def check_rotations(rotations: FloatArray, names: Sequence[str]) -> None:
 
 
 def _off_rotations(matrices: FloatArray) -> FloatArray:
-    """``(N,)``: by how much rows of matrices ``[..., 3, 3]`` miss unit length, right angles, and a right-handed frame."""
+    """``(N,)``: by how much rows of matrices ``[..., 3, 3]`` miss unit length, right angles and right-handed frames."""
     a, b, c, d, e, f, g, h, i = np.ascontiguousarray(matrices.reshape(-1, 9).T)  # entry by entry: no strides
     with np.errstate(over="ignore", invalid="ignore"):
-        off = np.abs(a * a + b * b + c * c - 1)
+        off: FloatArray = np.abs(a * a + b * b + c * c - 1)
         for miss in (
             d * d + e * e + f * f - 1,
             a * d + b * e + c * f,

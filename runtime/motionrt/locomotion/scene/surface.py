@@ -86,8 +86,8 @@ def _samples(triangles: Triangles, spacing: float) -> Iterator[tuple[Points, Int
     turned = np.take_along_axis(triangles, ((first[:, None] + np.arange(3)) % 3)[..., None], axis=1)
     rows = np.ceil(edges.max(axis=1) / spacing).astype(np.int64) + 1
     across = np.ceil(edges.min(axis=1) / spacing).astype(np.int64) + 1
-    stretched = max(limits().stretched_samples, 1000 * len(triangles))
-    if (rows.astype(np.float64) * across).sum() > min(stretched, limits().samples):
+    stretched = max(limits().stretched_samples, 500 * len(triangles))
+    if (rows * (across + 1.0)).sum() / 2 > min(stretched, limits().samples):
         raise SceneError(
             f"the mesh is too large for cells of {2 * spacing:g} m: give a larger cell=, check scale=, or: "
             f"{how_to_raise('stretched_samples' if stretched < limits().samples else 'samples')}"

@@ -197,3 +197,15 @@ def test_wrong_arrays_and_agents_are_refused() -> None:
         Agent(radius=-1)
     with pytest.raises(InvalidInputError, match="head_room"):
         Agent(head_room=0.1)
+
+
+def test_a_ground_of_two_triangles_may_be_a_hundred_metres_wide() -> None:
+    corners = np.array([[0, 0, 0], [100, 0, 0], [100, 0, 100], [0, 0, 100]], float)
+    scene = Scene.from_mesh((corners, np.array([[0, 2, 1], [0, 3, 2]])))
+    assert scene.free([[50.0, 50.0], [99.0, 1.0]]).all()
+
+
+def test_a_ground_that_would_take_seconds_is_refused_with_what_to_do() -> None:
+    corners = np.array([[0, 0, 0], [400, 0, 0], [400, 0, 400], [0, 0, 400]], float)
+    with pytest.raises(SceneError, match="larger cell="):
+        Scene.from_mesh((corners, np.array([[0, 2, 1], [0, 3, 2]])))
