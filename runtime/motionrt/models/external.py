@@ -6,9 +6,8 @@ between its versions. No file of motionrt needs any: so they are refused before 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from motionrt.models.protobuf import fields
 
-_VARINT, _FIXED64, _BYTES, _FIXED32 = 0, 1, 2, 5
 _EXTERNAL_DATA, _DATA_LOCATION = 13, 14  # of a TensorProto
 _DEPTH = 100
 
@@ -40,45 +39,12 @@ def names_other_files(content: bytes) -> bool:
 def _search(content: memoryview, kind: str, depth: int) -> bool:
     if depth > _DEPTH:
         raise ValueError("graphs within graphs")
-    for field, wire, value in _fields(content):
+    for field, value, _ in fields(content):
         if kind == "tensor":
             if field == _EXTERNAL_DATA or (field == _DATA_LOCATION and value != 0):
                 return True
-        elif wire == _BYTES and (below := _BELOW[kind].get(field)) is not None:
-            assert isinstance(value, memoryview)
-            if _search(value, below, depth + 1):
-                return True
+            continue
+        below = _BELOW[kind].get(field)
+        if below is not None and not isinstance(value, int) and _search(value, below, depth + 1):
+            return True
     return False
-
-
-def _fields(content: memoryview) -> Iterator[tuple[int, int, memoryview | int]]:
-    """Number, wire type and value of every field of a message  [protobuf encoding]."""
-    at = 0
-    while at < len(content):
-        key, at = _varint(content, at)
-        field, wire = key >> 3, key & 7
-        if wire == _VARINT:
-            number, at = _varint(content, at)
-            yield field, wire, number
-        elif wire == _BYTES:
-            length, at = _varint(content, at)
-            if at + length > len(content):
-                raise ValueError("a field ends behind its message")
-            yield field, wire, content[at : at + length]
-            at += length
-        elif wire in (_FIXED64, _FIXED32):
-            at += 8 if wire == _FIXED64 else 4
-        else:
-            raise ValueError(f"wire type {wire}")
-
-
-def _varint(content: memoryview, at: int) -> tuple[int, int]:
-    number = shift = 0
-    while True:
-        byte = content[at]
-        number |= (byte & 127) << shift
-        at, shift = at + 1, shift + 7
-        if byte < 128:
-            return number, at
-        if shift > 63:
-            raise ValueError("a number of more than ten bytes")

@@ -8,13 +8,9 @@ the decoding is done by onnxruntime's own folding at the start. The file keeps i
 from __future__ import annotations
 
 import struct
-from collections.abc import Iterator
 from dataclasses import dataclass
 
-from motionrt.models.protobuf import message, number, text
-
-Field = tuple[int, bytes, bytes]
-"""A field's number, its content, and all its bytes; a whole number's content is itself in eight bytes."""
+from motionrt.models.protobuf import fields, message, number, text
 
 _GRAPH, _NODE, _INITIALIZER = 7, 1, 5  # of ModelProto and GraphProto in onnx.proto3
 _FLOAT, _INT64 = 1, 7
@@ -27,8 +23,7 @@ def unfolded(model: bytes, *, exact: bool = False) -> bytes:
     ``exact`` also decodes the weights of products of 8-bit numbers, so that activations are float32: nothing is rounded
     in runs any more, and where two processors differ in the last digit, results do.
     """
-    fields = _fields(model)
-    parts = (message(_GRAPH, _graph(content, exact)) if field == _GRAPH else raw for field, content, raw in fields)
+    parts = (message(_GRAPH, _graph(one.content, exact)) if one.number == _GRAPH else one.raw for one in fields(model))
     return b"".join(parts)
 
 
@@ -45,8 +40,8 @@ class _Node:
     @classmethod
     def read(cls, content: bytes) -> _Node:
         told: dict[int, list[bytes]] = {1: [], 3: [b""], 5: []}
-        for field, value, _ in _fields(content):
-            told.setdefault(field, []).append(value)
+        for field in fields(content):
+            told.setdefault(field.number, []).append(field.content)
         inputs, (output, *_) = ([name.decode() for name in told[field]] for field in (1, 2))
         return cls(told[4][0].decode(), told[3][-1].decode() + "/", inputs, output, told[5])
 
@@ -56,10 +51,10 @@ def _graph(graph: bytes, exact: bool) -> list[bytes]:
     constants: list[list[bytes]] = []
     floats: dict[str, str] = {}  # names of quantised activations -> what they were made of
     replaced = False
-    for field, content, raw in _fields(graph):
+    for field in fields(graph):
         nodes = None
-        if field == _NODE:
-            node = _Node.read(content)
+        if field.number == _NODE:
+            node = _Node.read(field.content)
             if node.kind == "DynamicQuantizeLinear":
                 floats[node.output] = node.inputs[0]
             if node.kind == "MatMulNBits":
@@ -67,7 +62,7 @@ def _graph(graph: bytes, exact: bool) -> list[bytes]:
             elif exact:
                 nodes = _columns(node, floats)
         replaced = replaced or nodes is not None
-        parts += [raw] if nodes is None else [message(_NODE, node) for node in nodes]
+        parts += [bytes(field.raw)] if nodes is None else [message(_NODE, node) for node in nodes]
     return [*parts, *(message(_INITIALIZER, constant) for constant in constants)] if replaced else parts
 
 
@@ -138,32 +133,6 @@ def _tensor(name: str, kind: int, sizes: tuple[int, ...], content: bytes) -> lis
 
 def _attribute(attribute: bytes) -> tuple[str, int]:
     """Name and whole number of an attribute."""
-    told = {field: content for field, content, _ in _fields(attribute)}
-    return told[1].decode(), int.from_bytes(told.get(3, b""), "little")
-
-
-def _fields(content: bytes) -> Iterator[Field]:
-    """The fields of a message, one after the other."""
-    at = 0
-    while at < len(content):
-        start = at
-        key, at = _varint(content, at)
-        kind = key & 7
-        if kind == 0:
-            value, at = _varint(content, at)
-            yield key >> 3, value.to_bytes(8, "little"), content[start:at]
-            continue
-        size, at = _varint(content, at) if kind == 2 else ({1: 8, 5: 4}[kind], at)
-        yield key >> 3, content[at : at + size], content[start : at + size]
-        at += size
-
-
-def _varint(content: bytes, at: int) -> tuple[int, int]:
-    """A number of seven bits a byte, and where it ends."""
-    value = shift = 0
-    while True:
-        byte = content[at]
-        value |= (byte & 127) << shift
-        shift, at = shift + 7, at + 1
-        if byte < 128:
-            return value, at
+    told = {field.number: field for field in fields(attribute)}
+    value = told[3].value if 3 in told else 0
+    return told[1].content.decode(), value if isinstance(value, int) else 0
