@@ -124,14 +124,97 @@ def text(path: Path) -> object:
     return parse_instruction(words)
 
 
+def plan(path: Path) -> object:
+    """A plan, its timeline read, as the generator and the studio take it."""
+    from motionrt.studio.plan_draft import PlanDraft
+    from motionrt.synthesis.parts import body_parts
+    from motionrt.synthesis.plan import Plan
+    from motionrt.synthesis.timeline import read_timeline
+
+    read = Plan.read(path)
+    if read.timeline:
+        read_timeline(read.timeline, body_parts)
+    PlanDraft.of(read)
+    return read
+
+
+def sidecar(path: Path) -> object:
+    """Words beside the clips of a folder."""
+    from motionrt.retrieval.sidecars import read_sidecars
+
+    return read_sidecars(path.parent, ["clip0.bvh", "clip1.npz", "a/clip2.bvh"], [path.name])
+
+
+def votes(path: Path) -> object:
+    """What a person chose on a page of comparisons, counted and written as a table."""
+    from motionrt.study.votes import count_votes, write_votes
+
+    write_votes([path], path.with_name("votes.csv"))
+    return count_votes([path])
+
+
+def project(path: Path) -> object:
+    """A project of the studio: unpacked, its sheet and its files read."""
+    from motionrt.errors import MotionRTError
+    from motionrt.formats import load_motion
+    from motionrt.studio.project import sheet_of, unpacked
+
+    files = unpacked(path.read_bytes())
+    sheet = sheet_of(files)
+    for name, content in files:
+        if name.endswith(".npz"):
+            inside = path.with_name("inside.npz")
+            inside.write_bytes(content)
+            try:
+                load_motion(inside)
+            except MotionRTError:
+                continue
+    return sheet
+
+
+def info(path: Path) -> object:
+    """What is told of a motion file."""
+    from motionrt.formats.info import motion_file_info
+
+    return repr(motion_file_info(path))
+
+
+def cut(path: Path) -> object:
+    """A motion file, and its first frames cut out of it as they are."""
+    from motionrt.formats import load_motion
+    from motionrt.formats.cutting import cut_file
+
+    loaded = load_motion(path)
+    out = path.with_name(f"part{path.suffix}")
+    return cut_file(path, out, 0, max(1, loaded.frames // 2), frames=loaded.frames, fps=loaded.fps)
+
+
+def dressed(path: Path) -> object:
+    """A character with its mesh and colours, in two frames of a motion."""
+    from motions import walking
+
+    from motionrt.formats.character import load_character
+
+    figure = load_character(path)
+    worn = figure.dressed(walking(2))
+    assert all(np.isfinite(worn.vertices(frame)).all() for frame in range(2))
+    return worn
+
+
 DOORS: dict[str, Door] = {
     door.__name__: door
-    for door in (motion, acclaim, rig, scene, cloud, script, path_csv, manifest, mapping, captions, gallery, text)
-}
+    for door in (
+        motion, acclaim, rig, scene, cloud, script, path_csv, manifest, mapping, captions, gallery, text,
+        plan, sidecar, votes, project, info, cut, dressed,
+    )
+}  # fmt: skip
 
 
-def door_of(name: str) -> str:
+def door_of(name: str) -> str:  # noqa: PLR0911  # a rule a line
     """The door for a file of the corpus, by its name."""
+    named = name.partition("-")[0]
+    if named in {"plan", "sidecar", "votes", "project", "dressed", "mapping", "cut", "gallery"}:
+        return named
     if name.startswith("cloud"):
         return "cloud"
     if name.startswith(("mesh-", "pgm", "laugh_map", "deepmap", "int_digits_map", "mapyaml", "map_res", "png9000")):
@@ -140,6 +223,6 @@ def door_of(name: str) -> str:
         return "manifest"
     if name.startswith(("gen-", "text-")):
         return "text"
-    if name.startswith(("g_", "gallery-")):
+    if name.startswith("g_"):
         return "gallery"
     return "script" if name.endswith(".yaml") else "motion"

@@ -11,6 +11,7 @@ from fake_embedder import FakeEmbedder
 from fbx_files import write_fbx
 from motions import walking
 from retarget_rigs import rig
+from spellings import write_spellings
 
 from motionrt.motion import SMPL24
 from motionrt.retrieval import Gallery
@@ -132,7 +133,7 @@ def write_seeds(folder: Path) -> dict[str, tuple[str, Path]]:
     seeds["cloud.npz"] = ("cloud", folder / "cloud.npz")
     made = Gallery.from_motions([walking(12), walking(20, speed=2.0)], ["a", "b"], FakeEmbedder(), texts=["x", "y"])
     seeds["gallery"] = ("gallery", made.save(folder / "gallery").folder or folder)
-    return seeds
+    return seeds | write_spellings(folder)
 
 
 def _stl() -> bytes:

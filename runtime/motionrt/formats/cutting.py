@@ -13,6 +13,7 @@ from motionrt.errors import FormatError
 from motionrt.formats.acclaim.asf_search import find_asf
 from motionrt.formats.atomic import write_atomically, write_bytes
 from motionrt.formats.text import read_text
+from motionrt.untrusted.npz import read_arrays
 
 Span = tuple[int, int]
 
@@ -77,13 +78,12 @@ def _cut_amc(source: Path, out: Path, span: Span, frames: int, fps: float) -> No
 
 
 def _cut_npz(source: Path, out: Path, span: Span, frames: int, _fps: float) -> None:
-    with np.load(source, allow_pickle=False) as file:
-        arrays = {name: file[name] for name in file.files}
+    arrays, _ = read_arrays(source, lambda reason, line: FormatError(source, reason, line))
     there = max((len(a) for a in arrays.values() if a.ndim > 1), default=0)
     skip = _before(source, there, frames)
     part = slice(skip + span[0], skip + span[1])
     cut = {name: a[part] if a.ndim and len(a) == there else a for name, a in arrays.items()}
-    write_atomically(out, lambda file: np.savez(file, **cut))
+    write_atomically(out, lambda file: np.savez(file, allow_pickle=False, **cut))
 
 
 _CUTTERS: dict[str, Callable[[Path, Path, Span, int, float], None]] = {

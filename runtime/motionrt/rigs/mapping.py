@@ -11,8 +11,8 @@ from motionrt.errors import InvalidInputError
 from motionrt.motion.skeleton import SMPL24
 from motionrt.rigs.clip import RigClip
 from motionrt.rigs.stance import read_stance
-
-_LARGEST = 2**20
+from motionrt.untrusted import yaml_text
+from motionrt.untrusted.files import as_path, read_utf8
 
 
 def load_mapping(path: str | Path) -> dict[str, str]:
@@ -21,17 +21,18 @@ def load_mapping(path: str | Path) -> dict[str, str]:
     Raises:
         InvalidInputError: the file cannot be read, or does not map names to names.
     """
-    path = Path(path)
+    path = as_path(path)
+
+    def fail(reason: str, line: int | None) -> InvalidInputError:
+        return InvalidInputError(f"cannot read the mapping {path}{f':{line}' if line else ''}: {reason}")
+
     try:
-        if path.stat().st_size > _LARGEST:
-            raise InvalidInputError(f"{path} is too large for a mapping ({path.stat().st_size} bytes)")
-        mapping = yaml.safe_load(path.read_text(encoding="utf-8-sig"))
-        if isinstance(mapping, dict) and isinstance(mapping.get("mapping"), dict):  # of `motionrt rig map --json`
-            mapping = mapping["mapping"]
-    except (OSError, ValueError, yaml.YAMLError, RecursionError) as error:
-        if isinstance(error, InvalidInputError):
-            raise
-        raise InvalidInputError(f"cannot read the mapping {path}: {' '.join(str(error).split())}") from error
+        text = read_utf8(path, fail, "yaml_bytes")
+    except FileNotFoundError as error:
+        raise fail("there is no such file", None) from error
+    mapping = yaml_text.parse(text, getattr(yaml, "CSafeLoader", yaml.SafeLoader), fail)  # JSON is YAML, too
+    if isinstance(mapping, dict) and isinstance(mapping.get("mapping"), dict):  # of `motionrt rig map --json`
+        mapping = mapping["mapping"]
     if not isinstance(mapping, dict) or not all(isinstance(name, str) for pair in mapping.items() for name in pair):
         raise InvalidInputError(f'{path} must map joint names to joint names, such as {{"left_hip": "L_Thigh"}}')
     return mapping
@@ -49,7 +50,7 @@ def save_mapping(mapping: Mapping[str, str], path: str | Path) -> Path:
     Raises:
         InvalidInputError: the file cannot be written.
     """
-    path = Path(path)
+    path = as_path(path)
     try:
         path.write_text(mapping_text(mapping), encoding="utf-8")
     except OSError as error:

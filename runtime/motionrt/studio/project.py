@@ -11,7 +11,6 @@ import json
 import re
 import tempfile
 import zipfile
-import zlib
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +20,7 @@ from motionrt.motion import Motion
 from motionrt.studio.script_text import script_text
 from motionrt.studio.state import State
 from motionrt.untrusted.names import plain_stem
+from motionrt.untrusted.npz import BROKEN
 
 SHEET, SCRIPT, PLAN = "project.json", "script.yaml", "plan.yaml"
 _MOST = 100  # files of a bundle
@@ -73,7 +73,9 @@ def unpacked(content: bytes) -> list[tuple[str, bytes]]:
                     raise InvalidInputError(f"the ZIP holds two files '{name}'; give them other names")
                 with archive.open(member) as packed:
                     found[name] = packed.read(member.file_size + 1)
-    except (zipfile.BadZipFile, zipfile.LargeZipFile, zlib.error, NotImplementedError, RuntimeError, EOFError) as error:
+    except InvalidInputError:
+        raise
+    except BROKEN as error:
         raise InvalidInputError(f"no ZIP file that can be read: {error}") from error
     return list(found.items())
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import json
 import math
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
@@ -11,7 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from motionrt.errors import FormatError, InvalidInputError, MotionFileNotFoundError
-from motionrt.untrusted.files import as_path
+from motionrt.untrusted import json_text
+from motionrt.untrusted.files import as_path, read_bytes
 
 Z = 1.959963984540054  # of a normal distribution: 95 % lie within
 KIND = "motionrt study"
@@ -101,10 +101,11 @@ def _read(path: Path) -> dict[str, Any]:
         raise MotionFileNotFoundError(f"there is no file {path}")
     if path.stat().st_size > _LARGEST:
         raise FormatError(path, "is no file of votes: too large")
-    try:
-        found = json.loads(path.read_text(encoding="utf-8"))
-    except (ValueError, RecursionError) as error:
-        raise FormatError(path, "is no file of votes: not JSON in UTF-8") from error
+
+    def fail(reason: str, line: int | None) -> FormatError:
+        return FormatError(path, f"is no file of votes: {reason}", line)
+
+    found = json_text.parse(read_bytes(path, fail), fail)
     if not _is_study(found):
         raise FormatError(path, "is no file of votes; save one with the button of the page")
     return dict(found)
@@ -122,7 +123,7 @@ def _is_vote(vote: object) -> bool:
     return (
         isinstance(vote, dict)
         and isinstance(vote.get("pair"), str)
-        and vote.get("left") in {"a", "b"}
-        and vote.get("chosen") in {"a", "b"}
+        and vote.get("left") in ("a", "b")
+        and vote.get("chosen") in ("a", "b")
         and isinstance(vote.get("seconds"), int | float)
     )

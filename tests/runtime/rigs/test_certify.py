@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import re
 from dataclasses import replace
 from pathlib import Path
@@ -133,12 +134,28 @@ def test_a_mapping_file_is_drafted_kept_and_believed(tmp_path: Path) -> None:
     assert np.abs(turned.positions()[:, 4:6] - truth.positions()[:, 4:6]).max() < 0.02
 
 
-@pytest.mark.parametrize("content", ["[1, 2]", "left_hip: 3", "{", "left_hip: [a]", "a: &x [*x]"])
+BOMB = "a: &a [1, 1, 1, 1, 1, 1, 1, 1, 1]\n" + "".join(
+    f"{chr(98 + n)}: &{chr(98 + n)} [{', '.join([f'*{chr(97 + n)}'] * 9)}]\n" for n in range(20)
+)
+
+
+@pytest.mark.parametrize(
+    "content", ["[1, 2]", "left_hip: 3", "{", "left_hip: [a]", "a: &x [*x]", BOMB, "a: 2001-13-45", "[" * 999]
+)
 def test_what_is_no_mapping_is_refused(tmp_path: Path, content: str) -> None:
     path = tmp_path / "rig.yaml"
     path.write_text(content)
     with pytest.raises(InvalidInputError, match=r"mapping|must map"):
         load_mapping(path)
+
+
+def test_a_mapping_that_is_a_pipe_or_is_not_there_is_refused_at_once(tmp_path: Path) -> None:
+    with pytest.raises(InvalidInputError, match="no such file"):
+        load_mapping(tmp_path / "none.yaml")
+    if hasattr(os, "mkfifo"):
+        os.mkfifo(tmp_path / "pipe.yaml")
+        with pytest.raises(InvalidInputError, match="is a pipe"):
+            load_mapping(tmp_path / "pipe.yaml")
 
 
 CONVENTIONS = {

@@ -112,7 +112,14 @@ def test_votes_of_different_studies_are_not_mixed(tmp_path: Path) -> None:
         count_votes([votes(tmp_path / "1.json", "a"), votes(tmp_path / "2.json", "a", study="two")])
 
 
-@pytest.mark.parametrize("text", ["", "[]", '{"kind": "motionrt study"}', "[" * 100_000, '{"votes": [{"chosen": 1}]}'])
+LISTS = json.dumps(
+    {"kind": "motionrt study", "study": "s", "a": "x", "b": "y", "votes": [{"pair": "p", "left": [], "chosen": {}}]}
+)
+
+
+@pytest.mark.parametrize(
+    "text", ["", "[]", '{"kind": "motionrt study"}', "[" * 100_000, '{"votes": [{"chosen": 1}]}', LISTS]
+)
 def test_what_is_no_file_of_votes_is_refused(tmp_path: Path, text: str) -> None:
     file = tmp_path / "votes.json"
     file.write_text(text)

@@ -7,7 +7,7 @@ import numpy as np
 from motionrt.formats.gltf.accessors import GlbArrays
 from motionrt.formats.gltf.container import Json
 from motionrt.formats.gltf.nodes import NodeTree
-from motionrt.formats.gltf.skeleton import GlbSkeleton, inverse_binds
+from motionrt.formats.gltf.skeleton import LEAST_VOLUME, GlbSkeleton, inverse_binds
 from motionrt.motion.rotations import Array, project_to_so3
 from motionrt.motion.skeleton import FloatArray
 
@@ -24,9 +24,10 @@ def bind_pose(
     joints nearest to where the nodes are.
     """
     nodes = global_nodes(tree, skeleton)
-    posed = {joint: np.linalg.inv(matrix) for joint, matrix in inverse_binds(document, arrays, skeleton).items()}
-    if not posed or _same_up_to_one_transform(nodes, posed):
+    inverse = inverse_binds(document, arrays, skeleton)
+    if not inverse or _same_up_to_one_transform(nodes, inverse):
         return _local(nodes, skeleton.parents)
+    posed = {joint: np.linalg.inv(matrix) for joint, matrix in inverse.items()}
     spaces = [np.eye(4), *(nodes[above] for above in _above_all(skeleton, posed))]
     space = min(spaces, key=lambda space: sum(_apart(space @ bind, nodes[joint]) for joint, bind in posed.items()))
     bound = nodes.copy()
@@ -34,7 +35,7 @@ def bind_pose(
         if joint in posed:
             bound[joint] = space @ posed[joint]
         elif parent >= 0:
-            bound[joint] = bound[parent] @ np.linalg.inv(nodes[parent]) @ nodes[joint]
+            bound[joint] = bound[parent] @ _inverse(nodes[parent]) @ nodes[joint]
     return _local(bound, skeleton.parents)
 
 
@@ -49,8 +50,14 @@ def global_nodes(tree: NodeTree, skeleton: GlbSkeleton) -> Array:
     return out
 
 
-def _same_up_to_one_transform(nodes: Array, posed: dict[int, Array]) -> bool:
-    common = np.stack([nodes[joint] @ np.linalg.inv(bind) for joint, bind in posed.items()])
+def _inverse(transform: Array) -> Array:
+    """The inverse; of a node without extent, as scales of zero make it, the nearest to one."""
+    flat = abs(np.linalg.det(transform[:3, :3])) <= LEAST_VOLUME
+    return np.linalg.pinv(transform) if flat else np.linalg.inv(transform)
+
+
+def _same_up_to_one_transform(nodes: Array, inverse: dict[int, Array]) -> bool:
+    common = np.stack([nodes[joint] @ matrix for joint, matrix in inverse.items()])
     size = max(float(np.abs(nodes[:, :3, 3]).max()), 1e-9)
     spread = np.abs(common - common[0]).max(axis=0)
     turned = spread[:3, :3].max() / max(float(np.abs(common[0, :3, :3]).max()), 1e-12)

@@ -18,6 +18,8 @@ from motionrt.motion.rotations import Array
 SKIN_LIMIT = 256
 _UNEVEN = 0.01
 _CLEARLY_LARGER = 2.0
+LEAST_VOLUME = 1e-18
+"""A transform that makes volumes smaller than this, or larger than one over it, is none that can be turned back."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -185,6 +187,6 @@ def inverse_binds(document: Json, arrays: GlbArrays, skeleton: GlbSkeleton) -> d
             continue
         matrices = arrays.matrices(skin["inverseBindMatrices"], "the bind pose")
         for node, matrix in zip(skin["joints"], matrices, strict=False):
-            if node in place and abs(np.linalg.det(matrix[:3, :3])) > 1e-18:
+            if node in place and LEAST_VOLUME < abs(np.linalg.det(matrix[:3, :3])) < 1 / LEAST_VOLUME:
                 out.setdefault(place[node], np.vstack([matrix[:3], (0, 0, 0, 1)]))
     return out
