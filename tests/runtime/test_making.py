@@ -175,8 +175,8 @@ def test_joint_texts_are_one_sentence(runtime: Runtime) -> None:
 @pytest.mark.parametrize(
     ("given", "options", "message"),
     [
-        ([WALK], {}, "two motions, files or texts, or more"),
-        (WALK, {}, "two motions, files or texts, or more"),
+        ([WALK], {}, "two or more motions, files or texts"),
+        (WALK, {}, "two or more motions, files or texts"),
         ([WALK, 3], {}, "a layer is a Motion, a motion file, a text or a Layer, not 3"),
         ([WALK, ""], {"labeller": label}, "the text is empty"),
         ([WALK, WAVE], {"parts": ["global"]}, "one entry for each of the 2 layers"),
@@ -187,7 +187,7 @@ def test_joint_texts_are_one_sentence(runtime: Runtime) -> None:
         ([WALK, WAVE], {"seconds": "long"}, "seconds must be a number"),
         ([WALK, WAVE], {"seconds": 10_000, "labeller": label}, "seconds must be"),
         ([WALK, WAVE], {"joint": True, "parts": [None, "torso"]}, "nothing that parts or masks could split"),
-        ([WALK, walking(30, 30.0)], {"joint": True}, "joint=True needs texts only"),
+        ([WALK, walking(30, 30.0)], {"joint": True}, "joint=True is for texts alone"),
     ],
 )
 def test_bad_compositions_are_refused(runtime: Runtime, given: Any, options: dict[str, Any], message: str) -> None:

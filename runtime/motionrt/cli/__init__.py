@@ -40,6 +40,7 @@ from motionrt.cli import (
     web,
 )
 from motionrt.cli.console import be_quiet, close_quietly, complain, prepare_streams, say
+from motionrt.cli.options import check_output
 from motionrt.cli.parsing import Parser, WrongUsageError, split_places
 from motionrt.cli.reading import in_options, shown_warnings
 from motionrt.errors import MotionRTError
@@ -112,10 +113,11 @@ def _run(arguments: argparse.Namespace) -> int:
     be_quiet(arguments.quiet)
     try:
         with shown_warnings():
+            check_output(arguments)
             code = int(arguments.run(arguments))
         sys.stdout.flush()
     except MotionRTError as error:
-        complain(f"motionrt: error: {in_options(' '.join(str(error).split()))}")
+        complain(f"motionrt: error: {in_options(' '.join(str(error).split()), arguments.options)}")
         return USAGE if isinstance(error, WrongUsageError) else ERROR
     except BrokenPipeError:
         raise

@@ -69,7 +69,7 @@ def add(commands: Any) -> None:
     verify.add_argument("gallery", type=Path, help="a gallery, or the folder that was indexed")
     sheet = command(parts, "sheet", run_sheet, SHEET)
     sheet.add_argument("gallery", type=Path, nargs="?", help="a gallery, or the folder that was indexed")
-    add_output(sheet, "file to write (.html)")
+    add_output(sheet, "file to write (.html)", ())
     info = command(parts, "info", run_info, INFO)
     info.add_argument("gallery", type=Path, help="a gallery, or the folder that was indexed")
     for parser in (build, update):

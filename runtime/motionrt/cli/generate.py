@@ -128,11 +128,7 @@ def _degrees(miss: Miss) -> str:
 
 def names(arguments: argparse.Namespace) -> list[Path]:
     """The file, or numbered ones for more than one motion."""
-    from motionrt.errors import InvalidInputError
-
     out: Path = arguments.output
     if arguments.n == 1:
         return [out]
-    if not out.name:
-        raise InvalidInputError(f"-o {out} has no name to number; give a file, as in -o motion.bvh")
     return [out.with_name(f"{out.stem}-{number}{out.suffix}") for number in range(1, arguments.n + 1)]

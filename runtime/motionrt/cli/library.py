@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from motionrt.cli.console import print_json, print_table, say
-from motionrt.cli.options import add_json, add_models, add_output, command, runtime
+from motionrt.cli.options import add_json, add_models, command, runtime
 
 if TYPE_CHECKING:
     from motionrt.library import Made
@@ -25,7 +25,7 @@ def add(commands: Any) -> None:
     parser.add_argument(
         "prompts", type=Path, metavar="PROMPTS", help="a text file, one prompt a line; # begins a remark"
     )
-    add_output(parser, "folder that the clips go to")
+    parser.add_argument("-o", "--output", type=Path, required=True, metavar="OUT", help="folder that the clips go to")
     parser.add_argument("--each", type=int, default=1, metavar="N", help="clips of every prompt (default: 1)")
     parser.add_argument("--seconds", type=float, default=4.0, metavar="S", help="of every clip (default: 4)")
     parser.add_argument("--seed", type=int, default=0, metavar="N", help="of the first try (default: 0)")

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from motionrt.runtime import Runtime
+
+MOTION_KINDS = (".bvh", ".glb", ".gltf", ".vrma", ".npz", ".fbx")
+MOTION_FILE = "file to write (.bvh, .glb, .gltf, .vrma, .npz; .fbx where Blender is installed)"
 
 
 def command(commands: Any, name: str, run: Callable[[argparse.Namespace], int], text: str) -> argparse.ArgumentParser:
@@ -48,9 +51,18 @@ def add_text_tower(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def add_output(parser: argparse.ArgumentParser, text: str = "file to write (.bvh, .glb, .npz)") -> None:
-    """``-o``, where there is a file to write."""
+def add_output(parser: argparse.ArgumentParser, text: str = MOTION_FILE, kinds: Sequence[str] = MOTION_KINDS) -> None:
+    """``-o``, where there is a file of one of ``kinds`` to write; it is looked at before the command runs."""
     parser.add_argument("-o", "--output", type=Path, required=True, metavar="OUT", help=text)
+    parser.set_defaults(writes=tuple(kinds))
+
+
+def check_output(arguments: argparse.Namespace) -> None:
+    """InvalidInputError where the file of ``-o`` cannot be written: before minutes of work for it."""
+    if (kinds := getattr(arguments, "writes", None)) is not None:
+        from motionrt.untrusted.outputs import checked_output
+
+        checked_output(arguments.output, kinds)
 
 
 def add_mapping(parser: argparse._ActionsContainer) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import re
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -26,10 +26,14 @@ _OPTIONS = {
     "skin": "--skin",
     "asf": "--asf",
     "up": "--up",
+    "units": "--units",
+    "t_pose": "--t-pose",
+    "joint": "--joint",
 }
 """Arguments of the readers -> the options of the command line that set them."""
 
-_ARGUMENT = re.compile(r"\b(fps|rig_mapping|mapping|animation|skin|asf|up)=(?:\{('[^']*'): ('[^']*'), \.\.\.\})?")
+_ARGUMENT = re.compile(rf"\b({'|'.join(_OPTIONS)})=(?:True|\{{('[^']*'): ('[^']*'), \.\.\.\}})?")
+_VALUE = re.compile(r"(\w+)(?= must )")
 
 
 def add_reading(parser: argparse.ArgumentParser) -> None:
@@ -70,8 +74,17 @@ def read_motion(arguments: argparse.Namespace, path: str | Path) -> Motion:
         return load_motion(path, **reading(arguments))
 
 
-def in_options(message: str) -> str:
-    """An error message that names options of the command line where it named arguments of Python."""
+def in_options(message: str, options: Mapping[str, str] | None = None) -> str:
+    """An error message that names options of the command line where it named arguments of Python.
+
+    Args:
+        message: of a typed error.
+        options: of the command, by argument: ``seconds must be ...`` becomes ``--seconds must be ...``.
+    """
+    value = _VALUE.match(message)
+    if value and options:
+        names = {**{name: option for name, option in _OPTIONS.items() if option in options.values()}, **options}
+        message = names.get(value[1], value[1]) + message[value.end() :]
     return _ARGUMENT.sub(_option, message)
 
 

@@ -14,6 +14,7 @@ from motionrt.cli.reading import add_reading, read_motion
 if TYPE_CHECKING:
     from motionrt.rendering import Look, TakeLike
 
+PICTURES = (".png", ".jpg", ".jpeg", ".webp", ".gif", ".mp4")
 FLOOR = 0.05  # metres below which a point of a cloud is floor
 HELP = """draw motions: a filmstrip (.png), an animation (.gif) or a video (.mp4)
 Left limbs are blue, right limbs red. A script (.yaml) is performed and drawn with its paths, keypoints
@@ -31,7 +32,7 @@ def add(commands: Any) -> None:
     """Add the command."""
     parser = command(commands, "render", run, HELP)
     parser.add_argument("inputs", nargs="+", metavar="IN", help="motion files, or scripts (.yaml) to perform")
-    add_output(parser, "file to write (.png, .jpg, .webp, .gif, .mp4)")
+    add_output(parser, "file to write (.png, .jpg, .webp, .gif, .mp4)", PICTURES)
     parser.add_argument(
         "--character", type=Path, metavar="FILE", help="who is drawn: your own character with its mesh (.glb, .vrm)"
     )

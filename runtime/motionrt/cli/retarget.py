@@ -21,7 +21,7 @@ def add(commands: Any) -> None:
     parser = command(commands, "retarget", run, HELP)
     parser.add_argument("clip", type=Path, metavar="CLIP", help=f"the motion ({INPUTS})")
     parser.add_argument("--to", type=Path, required=True, metavar="RIG", help="the character (.glb, .bvh)")
-    add_output(parser, "file to write (.glb, .bvh)")
+    add_output(parser, "file to write (.glb, .bvh; .fbx where Blender is installed)", (".glb", ".bvh", ".fbx"))
     parser.add_argument(
         "--root-motion",
         nargs="?",

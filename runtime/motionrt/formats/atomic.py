@@ -26,6 +26,8 @@ def write_atomically(path: str | Path, write: Callable[[BinaryIO], None]) -> Pat
         with temporary.open("xb") as file:
             write(file)
         temporary.replace(path)
+    except FileNotFoundError as error:
+        raise InvalidInputError(f"cannot write {path}: there is no folder {path.parent}; make it first") from error
     except OSError as error:
         raise InvalidInputError(f"cannot write {path}: {error.strerror or error}") from error
     finally:

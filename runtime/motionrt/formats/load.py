@@ -24,6 +24,7 @@ from motionrt.rigs.clip import RigClip
 from motionrt.rigs.retarget_in import to_smpl24
 from motionrt.untrusted.arguments import check_flags, check_kind, checked_choice, checked_mapping, checked_up
 from motionrt.untrusted.files import as_path
+from motionrt.untrusted.outputs import checked_output
 
 MOTION_SUFFIXES = (".bvh", ".amc", ".npz", ".npy", ".fbx", *GLTF_SUFFIXES)
 """What :func:`load_motion` reads, in any mixture of upper and lower case."""
@@ -68,7 +69,7 @@ def load_rig(
     checked_up(up)
     checked_choice(animation, "animation")
     checked_choice(skin, "skin")
-    suffix = _suffix(path, MOTION_SUFFIXES, "read")
+    suffix = _readable_suffix(path)
     readers: dict[str, Callable[[], RigClip]] = {
         ".bvh": lambda: read_bvh(path, fps=fps),
         ".amc": lambda: read_amc(path, asf, fps=fps),
@@ -133,17 +134,18 @@ def save_motion(motion: Motion, path: str | Path, *, units: str | None = None, t
     check_kind(motion, Motion, "motion", "a Motion")
     check_flags(t_pose=t_pose)
     check_kind(units, str | None, "units", "the name of a unit")
-    suffix = _suffix(path, WRITABLE_SUFFIXES, "written")
+    suffix = checked_output(path, WRITABLE_SUFFIXES).suffix.lower()
     if suffix == ".bvh":
         return write_bvh(motion, path, scale=units_per_metre("cm" if units is None else units), t_pose=t_pose)
     if t_pose or units not in {None, "m"}:
-        raise InvalidInputError(f"units and t_pose are for .bvh; a '{suffix}' is in metres and knows its rest pose")
+        raise InvalidInputError(f"units= and t_pose= are for a .bvh; a '{suffix}' is in metres and knows its rest pose")
     return {".npz": write_npz, ".fbx": write_fbx}.get(suffix, write_glb)(motion, path)
 
 
-def _suffix(path: Path, known: tuple[str, ...], verb: str) -> str:
+def _readable_suffix(path: Path) -> str:
     suffix = path.suffix.lower()
-    if suffix in known:
+    if suffix in MOTION_SUFFIXES:
         return suffix
+    what = f"a file '{suffix}'" if suffix else "a file without a suffix"
     hint = " (an .asf is only a skeleton: load the .amc that it belongs to)" if suffix == ".asf" else ""
-    raise InvalidInputError(f"{path}: a file '{suffix}' cannot be {verb}; can be: {', '.join(known)}{hint}")
+    raise InvalidInputError(f"{path}: {what} cannot be read; can be: {', '.join(MOTION_SUFFIXES)}{hint}")

@@ -19,6 +19,7 @@ from motionrt.formats.gltf.write import write_rig_glb
 from motionrt.formats.units import to_metres, units_per_metre
 from motionrt.rigs.clip import RigClip
 from motionrt.rigs.target import RigMotion
+from motionrt.untrusted.outputs import checked_output
 
 RIG_SUFFIXES = (".bvh", ".fbx", *GLTF_SUFFIXES)
 """Files that can be targets of retargeting."""
@@ -58,7 +59,7 @@ class GlbRigFile:
             scale = units_per_metre(units or "cm")
             return write_rig_bvh(_clip(motion, t_pose), path, scale=scale)
         if units not in {None, "m"} or t_pose:
-            raise InvalidInputError("units and t_pose are for .bvh; a .glb is in metres and knows its rest pose")
+            raise InvalidInputError("units= and t_pose= are for a .bvh; a .glb is in metres and knows its rest pose")
 
         def write(glb: Path, fps: float) -> Path:
             return write_bytes(glb, self.target.with_animation(_at(motion.clip, fps), path.stem))
@@ -79,15 +80,12 @@ class FbxRigFile:
             written = with_rest_frame(clip) if t_pose else clip
             return write_rig_bvh(written, path, scale=units_per_metre(units or "cm"))
         if units not in {None, "m"} or t_pose:
-            raise InvalidInputError("units and t_pose are for .bvh; a .glb is in metres and knows its rest pose")
+            raise InvalidInputError("units= and t_pose= are for a .bvh; a .glb is in metres and knows its rest pose")
         return _in_glb(path, motion.fps, lambda glb, fps: write_rig_glb(_at(clip, fps), glb))
 
 
 def _rig_suffix(path: Path) -> str:
-    suffix = path.suffix.lower()
-    if suffix not in _WRITTEN:
-        raise InvalidInputError(f"{path}: a motion of a rig is written as {', '.join(_WRITTEN)}")
-    return suffix
+    return checked_output(path, _WRITTEN, "written with a motion of a rig").suffix.lower()
 
 
 def _in_glb(path: Path, fps: float, write: Callable[[Path, float], Path]) -> Path:

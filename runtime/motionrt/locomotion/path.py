@@ -9,7 +9,7 @@ from pathlib import Path as FilePath
 import numpy as np
 import numpy.typing as npt
 
-from motionrt.errors import FormatError, InvalidInputError
+from motionrt.errors import FormatError, InvalidInputError, MotionFileNotFoundError
 from motionrt.formats.text import read_text, to_float
 from motionrt.limits import how_to_raise, limits
 from motionrt.locomotion.corners import round_corners
@@ -85,6 +85,8 @@ class Path:
             FormatError: a line cannot be read, or there are not two different points; names file and line.
         """
         path = as_path(file)
+        if not path.exists():
+            raise MotionFileNotFoundError(f"no such file: {path}")
         rows = [(n, _cells(line)) for n, line in enumerate(read_text(path).split("\n"), start=1) if _cells(line)]
         columns, rows = _columns(rows, path)
         points = [[_number(row, column, path, n) for column in columns] for n, row in rows]

@@ -156,7 +156,7 @@ def read_nodes(file: Path) -> Node:
     try:
         text = read_utf8(file, fail, "yaml_bytes")
     except FileNotFoundError as error:
-        raise fail(f"cannot be read: {error.strerror}", None) from error
+        raise fail("there is no such file", None) from error
     root, loader = yaml_text.compose(text, fail)
     try:
         return Node({}, file, 1, "") if root is None else _Reader(file, loader, fail).node(root, ())

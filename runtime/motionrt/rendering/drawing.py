@@ -15,7 +15,7 @@ from motionrt.rendering.pillow import ffmpeg, pillow
 from motionrt.rendering.places import places
 from motionrt.rendering.strip import filmstrip
 from motionrt.rendering.takes import TakeLike, takes_of
-from motionrt.untrusted.files import as_path
+from motionrt.untrusted.outputs import checked_output
 
 GIF_FPS, VIDEO_FPS = 20.0, 30.0
 
@@ -95,10 +95,8 @@ def render_as(
     character: Character | str | Path | None = None,
 ) -> Path:
     """As :func:`render`, with all that can be chosen in one value."""
-    path = as_path(out)
+    path = checked_output(out, (*PICTURES, *FILMS), "drawn")
     suffix = path.suffix.lower()
-    if suffix not in (*PICTURES, *FILMS):
-        raise InvalidInputError(f"{path}: a file '{suffix}' cannot be drawn; can be: {', '.join((*PICTURES, *FILMS))}")
     if suffix in PICTURES:
         return write_picture(picture(given, look, captions, character), path)
     pillow("Image")

@@ -13,6 +13,7 @@ from motionrt.rigs.clip import RigClip
 from motionrt.rigs.stance import read_stance
 from motionrt.untrusted import yaml_text
 from motionrt.untrusted.files import as_path, read_utf8
+from motionrt.untrusted.outputs import checked_output
 
 
 def load_mapping(path: str | Path) -> dict[str, str]:
@@ -50,7 +51,7 @@ def save_mapping(mapping: Mapping[str, str], path: str | Path) -> Path:
     Raises:
         InvalidInputError: the file cannot be written.
     """
-    path = as_path(path)
+    path = checked_output(path, ())
     try:
         path.write_text(mapping_text(mapping), encoding="utf-8")
     except OSError as error:

@@ -85,12 +85,15 @@ def _given_roles(tree: RigTree, mapping: Mapping[str, str]) -> dict[str, int]:
     roles = {}
     for role, name in mapping.items():
         if role not in SMPL24.names:
-            raise RigError(f"mapping has the unknown key '{role}'; keys are smpl24 joints: {', '.join(SMPL24.names)}")
+            near = get_close_matches(role, SMPL24.names, n=1)
+            meant = f"; did you mean {near[0]}?" if near else ""
+            known = ", ".join(SMPL24.names)
+            raise RigError(f"the mapping names '{role}', no joint of smpl24{meant} The joints are: {known}")
         found = [joint for joint, other in enumerate(tree.names) if other == name]
         if len(found) != 1:
             near = get_close_matches(name, tree.names, n=5, cutoff=0.3) or list(tree.names)
             problem = "has no joint" if not found else f"has {len(found)} joints called"
-            raise RigError(f"mapping['{role}']: the rig {problem} '{name}'; it has {', '.join(near)}")
+            raise RigError(f"the mapping of {role}: the rig {problem} '{name}'; it has {', '.join(near)}")
         roles[role] = found[0]
     return roles
 

@@ -96,15 +96,22 @@ def joined(
         )
     texts = [checked_text(one.strip(" .,;")) for one in given if isinstance(one, str) and is_text(one)]
     if len(texts) != len(given):
-        raise InvalidInputError("joint=True needs texts only; files and motions are composed without it")
+        raise InvalidInputError("joint=True is for texts alone; files and motions are composed without it")
     return f"{', '.join(texts[:-1])} and {texts[-1]}"
 
 
 def _check(given: Sequence[LayerLike]) -> None:
     if isinstance(given, str | bytes) or not isinstance(given, Sequence) or len(given) < 2:
         raise InvalidInputError(
-            f"a composition needs a list of two motions, files or texts, or more, not {shown(given)}"
+            f"a composition needs a list of two or more motions, files or texts, not {_told(given)}"
         )
+
+
+def _told(given: object) -> str:
+    """What is too little for a composition."""
+    if isinstance(given, Sequence) and not isinstance(given, str | bytes):
+        return f"of {shown(given[0])} alone" if given else "an empty one"
+    return shown(given)
 
 
 def _opened(given: LayerLike) -> Layer | Motion | str:

@@ -113,4 +113,4 @@ def test_a_character_that_is_stuck_is_exit_code_one(
 )
 def test_wrong_usage_is_exit_code_two(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["walk", *arguments]) == 2
-    assert "usage: motionrt walk" in capsys.readouterr().err
+    assert "(see 'motionrt walk --help')" in capsys.readouterr().err

@@ -113,7 +113,7 @@ def test_a_seed_is_told_where_chance_has_a_part(
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["BODY"], "two motions, files or texts, or more"),
+        (["BODY"], "two or more motions, files or texts"),
         (["BODY", "OTHER", "--parts-b", "tail"], "unknown body part 'tail'"),
         (["BODY", "OTHER", "--parts-c", "torso"], "--parts-c is for a motion that is not there: only 2 are given"),
         (["BODY", "OTHER", "--parts-b", "torso", "--mask-b", "head"], "not both"),
@@ -121,7 +121,7 @@ def test_a_seed_is_told_where_chance_has_a_part(
         (["BODY", "OTHER", "--parts-b", "torso", "--align", "best"], "align must be one of start, stretch, phase"),
         (["BODY", "OTHER", "--parts-b", "torso", "--seconds", "10000"], "seconds must be"),
         (["BODY", "missing.bvh"], "missing.bvh"),
-        (["BODY", "OTHER", "--joint"], "joint=True needs texts only"),
+        (["BODY", "OTHER", "--joint"], "--joint is for texts alone"),
         (["BODY", ""], "the text is empty"),
     ],
 )

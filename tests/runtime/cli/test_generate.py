@@ -94,7 +94,9 @@ def test_options_reach_the_sampler(run_json: RunJson, tmp_path: Path) -> None:
         ([TEXT, "--temperature", "-1"], "temperature must be a number from 0 to 10, not -1.0"),
         ([TEXT, "--temperature", "1e308"], "temperature must be a number from 0 to 10, not 1e+308"),
         ([TEXT, "--guidance", "1e30"], "guidance must be a number from 0 to 100, not 1e+30"),
-        ([TEXT, "-o", "", "-n", "2"], "has no name to number"),
+        ([TEXT, "-o", "", "-n", "2"], ". is a folder; give a file in it, as in motion.bvh"),
+        ([TEXT, "-o", "wave"], "'wave' has no suffix, which would say its kind: name it wave.bvh, for instance"),
+        ([TEXT, "-o", "none/wave.bvh"], "cannot write none/wave.bvh: there is no folder none; make it first"),
         ([TEXT, "--sampler", "gan"], "unknown sampler 'gan'; choose one of: motion, diffusion, vae"),
         ([TEXT, "--seed", "-1"], "seed must be a whole number from 0, not -1"),
         ([TEXT, "-o", "motion.xyz"], "motion.xyz: a file '.xyz' cannot be written"),
@@ -123,7 +125,7 @@ def test_neither_text_nor_plan_is_wrong_usage(tmp_path: Path, capsys: pytest.Cap
 @pytest.mark.parametrize("arguments", [[], [TEXT], [TEXT, "-o", "x.bvh", "-n", "many"]])
 def test_wrong_usage_is_exit_code_two(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["generate", *arguments]) == 2
-    assert "usage: motionrt generate" in capsys.readouterr().err
+    assert "(see 'motionrt generate --help')" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(("text", "warned"), [("asdf qwer zxcv", True), ("a person waves", False)])

@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from motions import walking
 
 import motionrt
 from motionrt.cli import console, describe, main
@@ -29,12 +30,61 @@ def test_version_and_help_go_to_stdout(capsys: pytest.CaptureFixture[str]) -> No
         assert name in out
 
 
-@pytest.mark.parametrize("arguments", [["nonsense"], ["retrieve"], ["gallery"], ["bench", "--threads", "0"]])
-def test_wrong_usage_is_exit_code_two_on_stderr(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["wlak"], "no command 'wlak'; did you mean walk? ('motionrt --help' lists them all)"),
+        (["retrieve"], "missing: text (see 'motionrt retrieve --help')"),
+        (["gallery"], "missing: COMMAND (see 'motionrt gallery --help')"),
+        (["bench", "--threads", "0"], "--threads: counts are at least 1 (see 'motionrt bench --help')"),
+        (["walk", "-o", "x.bvh"], "missing: one of --to --path (see 'motionrt walk --help')"),
+        (["walk", "--to", "a", "b"], "--to: a number is wanted, not 'a' (see 'motionrt walk --help')"),
+        (["walk", "--to", "1"], "--to: 2 values are wanted (see 'motionrt walk --help')"),
+        (["retrieve", "a", "-k", "x"], "-k: a whole number is wanted, not 'x' (see 'motionrt retrieve --help')"),
+        (["retrieve", "a", "--jsn"], "unknown: --jsn; did you mean --json? (see 'motionrt retrieve --help')"),
+        (["render", "a", "-o", "x.png", "--theme", "red"], "--theme cannot be 'red'; can be: light, dark"),
+    ],
+)
+def test_wrong_usage_is_one_line_on_stderr_and_exit_code_two(
+    arguments: list[str], said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert main(arguments) == 2
     out, err = capsys.readouterr()
     assert out == ""
-    assert "usage: motionrt" in err
+    assert err.startswith(f"motionrt: error: {said}")
+    assert err.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["generate", "walk", "--seconds", "99", "-o", "x.bvh"], "--seconds must be a number from 0.5 to 10, not 99.0"),
+        (["retrieve", "walk", "-k", "0"], "-k must be at least 1, not 0"),
+        (["walk", "--to", "1", "1", "--speed", "99", "-o", "x.bvh"], "--speed must lie between 0.3 and 5 m/s"),
+        (["compose", "clip.npz", "wave", "--joint", "-o", "x.bvh"], "--joint is for texts alone"),
+        (["compose", "clip.npz", "-o", "x.bvh"], "two or more motions, files or texts, not of 'clip.npz' alone"),
+        (["convert", "clip.npz", "x.glb", "--units", "m", "--t-pose"], "--units and --t-pose are for a .bvh;"),
+        (["info", "clip.npz", "--source-fps", "0"], "--source-fps must be a positive number, not 0.0"),
+        (["resample", "clip.npz", "x.bvh", "--fps", "0"], "--fps must be a positive number, not 0.0"),
+        (["rig", "map", "clip.bvh", "--mapping", "m.yaml"], "the mapping of left_hip: the rig has no joint 'nope'"),
+        (["rig", "map", "clip.bvh", "-o", "none/x.yaml"], "there is no folder none; make it first"),
+        (["walk", "--path", "none.csv", "-o", "x.bvh"], "no such file: none.csv"),
+        (["perform", "none.yaml", "-o", "x.bvh"], "none.yaml: there is no such file"),
+    ],
+)
+def test_errors_are_in_the_words_of_the_command_line(
+    arguments: list[str],
+    said: str,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    walking(20).save("clip.npz")
+    walking(20).save("clip.bvh")
+    Path("m.yaml").write_text("left_hip: nope\n")
+    assert main(arguments) == 1
+    assert said in capsys.readouterr().err
 
 
 def test_the_module_runs_as_a_program_without_a_traceback(tmp_path: Path) -> None:
