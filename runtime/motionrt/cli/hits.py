@@ -7,13 +7,14 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from motionrt.cli.console import print_json, print_table, say
+from motionrt.cli.console import complain, print_json, print_table, say
 from motionrt.errors import InvalidInputError
 
 if TYPE_CHECKING:
     from motionrt.retrieval import Filter, Gallery, Hit
     from motionrt.retrieval.saving import Saved
 
+NOTHING_FOUND = 1
 _CAPTION = 60  # letters of a caption in a table
 
 
@@ -62,14 +63,25 @@ def show(hits: Sequence[Hit], gallery: Gallery | None, arguments: argparse.Names
         raise InvalidInputError("a database holds no motions: --save and --pictures need the gallery itself")
     if arguments.json:
         print_json([as_json(hit) for hit in hits])
-    else:
+    elif hits:
         from motionrt.retrieval import grouped
 
         _print([hit for group in grouped(hits) for hit in group])
-    if gallery is not None and arguments.save is not None:
+    if gallery is not None and arguments.save is not None and hits:
         _save(hits, gallery, arguments.save)
     if gallery is not None and arguments.pictures is not None and hits:
         _draw(hits, gallery, arguments.pictures)
+
+
+def outcome(hits: Sequence[Hit], arguments: argparse.Namespace) -> int:
+    """The exit code: 1 where hits were to be saved or drawn, and there are none."""
+    wanted = [
+        f"{name} {given}" for name, given in (("--save", arguments.save), ("--pictures", arguments.pictures)) if given
+    ]
+    if hits or not wanted:
+        return 0
+    complain(f"motionrt: error: nothing was found, so nothing is written for {' and '.join(wanted)}")
+    return NOTHING_FOUND
 
 
 def as_json(hit: Hit) -> dict[str, object]:

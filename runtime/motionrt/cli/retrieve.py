@@ -6,7 +6,7 @@ import argparse
 from typing import Any
 
 from motionrt.cli.console import say, working
-from motionrt.cli.hits import add_filters, add_output, read_filter, show
+from motionrt.cli.hits import add_filters, add_output, outcome, read_filter, show
 from motionrt.cli.options import add_json, add_models, add_text_tower, command, runtime
 
 HELP = """find the motions of a gallery that fit a text
@@ -55,4 +55,4 @@ def run(arguments: argparse.Namespace) -> int:
     show(hits, gallery if isinstance(gallery, Gallery) else None, arguments)
     if hits.notice:
         say(f"motionrt: {hits.notice}")
-    return 0
+    return outcome(hits, arguments)

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from motionrt.cli.console import working
-from motionrt.cli.hits import add_output, show
+from motionrt.cli.hits import add_output, outcome, show
 from motionrt.cli.options import add_json, add_models, command, runtime
 
 HELP = """find the motions of a gallery that are most like a motion
@@ -32,4 +32,4 @@ def run(arguments: argparse.Namespace) -> int:
     with working("searching"):
         hits = opened.similar(arguments.motion, arguments.k, gallery)
     show(hits, gallery, arguments)
-    return 0
+    return outcome(hits, arguments)

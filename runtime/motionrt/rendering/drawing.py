@@ -6,7 +6,6 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from motionrt.errors import InvalidInputError
 from motionrt.formats import Character
 from motionrt.rendering.files import FILMS, PICTURES, gif_rate, write_gif, write_mp4, write_picture
 from motionrt.rendering.film import film

@@ -20,6 +20,11 @@ STRIDE = 5
 MAX_OVERLAP = 0.3
 
 
+FITS = 0.45
+"""Cosine from which on a span fits. Of 40 starter clips 90 % reach it somewhere with their own text, 10 % with that of
+another clip; and 45 % of motions of six clips with a text of none of them."""
+
+
 @dataclass(frozen=True)
 class Moment:
     """A span of a motion that fits a text.

@@ -27,7 +27,7 @@ def test_describe_has_a_table_and_captions_of_its_own(library: Path, capsys: pyt
 
 
 def test_moments_are_spans_in_seconds(library: Path, run_json: Callable[..., Any]) -> None:
-    found = run_json("moments", "jump", library / "long.npz", "-k", 3)
+    found = run_json("moments", "jump", library / "long.npz", "-k", 3, "--min-score", -1)
     assert [list(row) for row in found] == [["rank", "score", "start", "end"]] * 3
     assert all(0 <= row["start"] < row["end"] <= 15 for row in found)
 
@@ -35,7 +35,8 @@ def test_moments_are_spans_in_seconds(library: Path, run_json: Callable[..., Any
 def test_moments_have_the_lengths_of_the_windows_that_were_asked_for(
     library: Path, run_json: Callable[..., Any], capsys: pytest.CaptureFixture[str]
 ) -> None:
-    found = run_json("moments", "jump", library / "long.npz", "--windows", "100,140")
+    found = run_json("moments", "jump", library / "long.npz", "--windows", "100,140", "--min-score", -1)
+    assert found
     assert {round(row["end"] - row["start"], 2) for row in found} <= {5.0, 7.0}
     for wrong in ("0", "ten", ""):
         assert main(["moments", "jump", str(library / "long.npz"), "--windows", wrong]) == 2
@@ -45,11 +46,25 @@ def test_moments_have_the_lengths_of_the_windows_that_were_asked_for(
 def test_the_plot_follows_the_table_and_stays_out_of_json(
     library: Path, capsys: pytest.CaptureFixture[str], run_json: Callable[..., Any]
 ) -> None:
-    assert main(["moments", "jump", str(library / "long.npz"), "-k", "1", "--plot"]) == 0
+    assert main(["moments", "jump", str(library / "long.npz"), "-k", "1", "--plot", "--min-score", "-1"]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert len(lines) == 2 + 6
     assert lines[-1].split() == ["0", "15.0", "s"]
     run_json("moments", "jump", library / "long.npz", "--plot")  # parses: the plot went to stderr
+
+
+def test_what_does_not_happen_has_no_moment_and_nothing_is_written(
+    library: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], run_json: Callable[..., Any]
+) -> None:
+    command = ["moments", "jump", str(library / "long.npz"), "--min-score", "0.99"]
+    assert main(command) == 0
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert "no moment fits 'jump'; the nearest is " in err
+    assert run_json(*command) == []
+    assert main([*command, "--save", str(tmp_path / "out")]) == 1
+    assert "nothing was found, so nothing is written for --save" in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
 
 
 def test_a_plot_rises_where_the_values_do_and_marks_the_span() -> None:

@@ -96,6 +96,21 @@ def test_a_query_of_unknown_words_says_so_instead_of_answering(
     assert "walk.bvh" in capsys.readouterr().out
 
 
+def test_a_search_without_hits_writes_nothing_and_its_exit_code_says_so(
+    gallery: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    command = ["retrieve", "walks", "--gallery", str(gallery), "--min-seconds", "999"]
+    assert main(command) == 0
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert "no clip of the gallery fulfils the conditions" in err
+    folder, picture = tmp_path / "hits", tmp_path / "hits.png"
+    assert main([*command, "--save", str(folder), "--pictures", str(picture)]) == 1
+    assert f"nothing is written for --save {folder} and --pictures {picture}" in capsys.readouterr().err
+    assert not folder.exists()
+    assert not picture.exists()
+
+
 def test_similar_leaves_the_clip_itself_out(gallery: Path, run_json: Callable[..., Any]) -> None:
     hits = run_json("similar", "walk.bvh", "--gallery", gallery, "-k", 5)
     assert [hit["rank"] for hit in hits] == [1, 2]
