@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from motionrt.synthesis.parts.grammar import (
     ADJECTIVES,
     BREAKS,
+    BY,
     DETERMINERS,
     JOINTS,
     LIMBS,
@@ -165,6 +166,8 @@ def _begins(words: Sequence[Word], place: int, start: int, actions: Sequence[int
         return any(start <= action < place for action in actions)
     if text not in JOINTS or _between_sides(words, place):
         return False
+    if text == "," and words[start].text in BY and not any(start <= action < place for action in actions):
+        return False  # "with the left foot, she draws circles"
     until = next((i for i in range(place + 1, len(words)) if words[i].text in BREAKS | JOINTS), len(words))
     before = any(start <= action < place for action in actions)
     return any(place < action < until for action in actions) and (before or _has_limb(words, start, place))

@@ -24,6 +24,7 @@ from motionrt.synthesis.parts.grammar import (
     SIDES,
     word_set,
 )
+from motionrt.synthesis.parts.implied import several_legs, worn_on
 from motionrt.synthesis.parts.lexicon import Lexicon
 from motionrt.synthesis.parts.limbs import BOTH, RIGHT, Limb
 from motionrt.synthesis.parts.reading import Act, Clause
@@ -78,6 +79,8 @@ def resolve(act: Act, limbs: Sequence[Limb], clause: Clause, words: Sequence[Wor
             found = found[1:]
     narrowing = movers + [limb for limb in means if not _posed(limb, words)]
     found = [_narrowed(found[0], narrowing, code), *found[1:]]
+    worn = worn_on(act, clause, words)
+    found += [Found(frozenset(f"{side} leg" for side in worn), "the leg that it is worn on")] if worn else []
     posed = [limb for limb in means if _posed(limb, words)]
     found += [Found(limb.parts, "the limb is held so") for limb in posed]
     return found + _stooping(act, clause, found, words)
@@ -102,10 +105,12 @@ def _base(
     one_sided = set(code) & set("al")
     if not one_sided:
         return Found(coded(code), "lexicon")
-    if act.sides:
-        return Found(coded(code, act.sides), "lexicon, with the side said before it")
+    worn = worn_on(act, clause, words) if "l" in code else NONE
+    if act.sides or worn:
+        return Found(coded(code, act.sides or worn), "lexicon, with the side said before it")
     here = words[clause.start : clause.end]
-    if any(word.text in ALTERNATING for word in here) or _both_after(act, words) or _several(act, words):
+    in_turn = any(word.text in ALTERNATING for word in here) or ("l" in code and several_legs(targets, words))
+    if in_turn or _both_after(act, words) or _several(act, words):
         return Found(coded(code, BOTH), "lexicon, both sides in turn")
     if "a" in code and (any(limb.paired for limb in targets) or _big(act, clause, words, lexicon)):
         return Found(coded(code, BOTH), "lexicon, both hands for what is big or paired")

@@ -10,11 +10,13 @@ import numpy.typing as npt
 
 from motionrt.errors import InvalidInputError
 from motionrt.motion.body_parts import ARMS, LEGS, PARTS
-from motionrt.synthesis.parts.grammar import ARM, DETERMINERS, LEG, STILL, word_set
+from motionrt.synthesis.parts.grammar import ARM, DETERMINERS, LEG, word_set
+from motionrt.synthesis.parts.implied import stoops, travels
 from motionrt.synthesis.parts.lexicon import CLOSED, Lexicon, limb_spelling, load_lexicon
 from motionrt.synthesis.parts.limbs import Limb
 from motionrt.synthesis.parts.reading import Act, Clause, clauses_of
 from motionrt.synthesis.parts.resolving import NONE, Found, coded, has_thing, resolve
+from motionrt.synthesis.parts.stillness import keeps, kept_still, on_one_leg, on_the_spot
 from motionrt.synthesis.parts.words import Word, base_forms, words_of
 
 Encode = Callable[[str], npt.ArrayLike]
@@ -95,7 +97,7 @@ class RulesLabeller:
 
     def _clause(self, clauses: Sequence[Clause], number: int, words: Sequence[Word]) -> list[Reason]:
         clause = clauses[number]
-        quiet = [limb for limb in clause.limbs if _kept_still(limb, clause, words)]
+        quiet = [limb for limb in clause.limbs if kept_still(limb, clause, words)]
         denied = clause.limbs if clause.negated else quiet
         reasons = [
             Reason(_text(words, limb.start, limb.end), "kept still or denied", limb.parts, False) for limb in denied
@@ -104,7 +106,7 @@ class RulesLabeller:
             return reasons
         acts = [act for act in clause.acts if act.entry.kind != "light"]
         limbs = [limb for limb in clause.limbs if limb not in quiet]
-        acts = [act for act in acts if not _keeps(act, quiet) and not _uses(act, limbs)]
+        acts = [act for act in acts if not keeps(act, quiet) and not _uses(act, limbs)]
         owners = {limb: _owner(limb, acts) for limb in limbs}
         for act in acts:
             own = [limb for limb in limbs if owners[limb] is act] or _beside(act, acts, limbs, owners)
@@ -114,14 +116,20 @@ class RulesLabeller:
 
     def _act(self, act: Act, limbs: Sequence[Limb], clause: Clause, words: Sequence[Word]) -> list[Reason]:
         said = _text(words, act.start, act.end)
-        if act.entry.kind == "gait" and _on_the_spot(clause, words):
+        if on_the_spot(act, clause, words):
             return [Reason(said, "lexicon, on the spot", coded(act.entry.parts) - {"global"})]
         found = resolve(act, limbs, clause, words, self._lexicon)
         named = " ".join([said, *(_text(words, limb.start, limb.end) for limb in limbs)])
         if act.entry.kind == "still":
+            if on_one_leg(limbs, words):
+                return [Reason(named, "stands on one leg", frozenset(LEGS))]
             moved = [Found(limb.parts, "the limb is held so") for limb in limbs if limb.role != "target"]
             still = Reason(said, STILL_RULE, coded(act.entry.parts))
             return [still, *(Reason(named, one.rule, one.parts) for one in moved)]
+        way = travels(act, limbs, clause, words)
+        found += [Found(way, "moved along on foot")] if way else []
+        low = stoops(act, clause, words)
+        found += [Found(low, "picked up, so stooped to")] if low else []
         return [Reason(said if one.rule.startswith("lexicon") else named, one.rule, one.parts) for one in found]
 
     def _shared(self, act: Act, clauses: Sequence[Clause], number: int, words: Sequence[Word]) -> list[Limb]:
@@ -206,30 +214,9 @@ def _beside(act: Act, acts: Sequence[Act], limbs: Sequence[Limb], owners: Mappin
     return [limb for limb in limbs if owners[limb] is after]
 
 
-def _kept_still(limb: Limb, clause: Clause, words: Sequence[Word]) -> bool:
-    """Whether the words around a limb say that it does not move: "arms still", "keep still the head"."""
-    near = words[limb.end : min(limb.end + 2, clause.end)]
-    inside = words[limb.start : limb.end]
-    return any(word.text in STILL for word in (*near, *inside)) or _held_in_place(limb, clause, words)
-
-
-def _keeps(act: Act, quiet: Sequence[Limb]) -> bool:
-    """Whether a verb only says that a limb stays as it is: "keeping the torso still"."""
-    return act.entry.phrase[0] in ("keep", "hold", "stay", "remain") and any(
-        (limb.start - 2 <= act.start and act.end <= limb.start) or act.start == limb.end for limb in quiet
-    )
-
-
 def _uses(act: Act, limbs: Sequence[Limb]) -> bool:
     """Whether a verb only says by which limb: "use the left foot to kick"."""
     return act.entry.phrase == ("use",) and any(limb.start == act.end for limb in limbs)
-
-
-def _held_in_place(limb: Limb, clause: Clause, words: Sequence[Word]) -> bool:
-    after = [word.text for word in words[limb.end : min(limb.end + 2, clause.end)]]
-    return after == ["in", "place"] and any(
-        "keep" in word.bases or "hold" in word.bases for word in words[clause.start : limb.start]
-    )
 
 
 def _posture(limb: Limb, words: Sequence[Word]) -> Reason:
@@ -238,17 +225,6 @@ def _posture(limb: Limb, words: Sequence[Word]) -> Reason:
         "a limb that is named",
         limb.parts if limb.region else coded("a", limb.sides),
     )
-
-
-def _on_the_spot(clause: Clause, words: Sequence[Word]) -> bool:
-    text = f" {_text(words, clause.start, clause.end)} "
-    return any(f" {spot} " in text for spot in _SPOTS)
-
-
-_SPOTS = (
-    *("in place", "on the spot", "on spot", "on the same spot", "in the same spot", "in one place"),
-    *("in the same place", "on a treadmill", "on the treadmill"),
-)
 
 
 def _text(words: Sequence[Word], start: int, end: int) -> str:

@@ -52,6 +52,61 @@ def test_phrases_whose_parts_are_ambiguous_come_out_as_documented(text: str, exp
 @pytest.mark.parametrize(
     ("text", "expected"),
     [
+        ("carry the crate to the van", "A L g"),
+        ("he carries a plank away", "A L g"),
+        ("push the crate across the yard", "A L g"),
+        ("roll the barrel up the ramp", "A L g"),
+        ("dribble forward", "A L g"),
+        ("carry a crate", "A"),
+        ("push the crate open", "A"),
+        ("push up the sleeves", "A"),
+        ("bring the cup to the mouth", "A"),
+        ("push a cup across the table", "A"),
+        ("take the cup from the table", "A"),
+    ],
+)
+def test_who_moves_a_thing_along_a_way_walks_and_who_moves_it_in_place_does_not(text: str, expected: str) -> None:
+    assert LABEL(text) == parts(expected)
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("take off the left shoe", "A ll t"),
+        ("kick off the left boot", "ll"),
+        ("kick the legs in the water", "L"),
+        ("kick the legs of the opponent", "rl"),
+        ("with the left foot, she draws a line", "ll"),
+        ("drop to one knee", "L g"),
+        ("lower themselves onto both knees", "L g"),
+        ("pick a leaf up with the left hand", "la t"),
+        ("pick up the phone", "A"),
+    ],
+)
+def test_legs_and_trunk_move_where_the_words_imply_it(text: str, expected: str) -> None:
+    assert LABEL(text) == parts(expected)
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("stand with the arms hanging down", "L"),
+        ("stand with the arms relaxed", "L"),
+        ("walk with the left arm tied", "L g"),
+        ("hang from a bar with the arms", "A"),
+        ("stand on the left leg and stretch both arms", "A L"),
+        ("stand and stretch both arms", "A"),
+        ("dance on the spot", "A L t"),
+        ("jump on the spot", "L g"),
+    ],
+)
+def test_idle_arms_rest_a_standing_leg_works_and_steps_on_the_spot_lead_nowhere(text: str, expected: str) -> None:
+    assert LABEL(text) == parts(expected)
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
         ("wave the left hand", "la"),
         ("wave with both hands", "A"),
         ("wave", "A"),
