@@ -10,16 +10,16 @@ import pytest
 from motionrt_training.checkpoint import save_atomically
 from motionrt_training.evaluate.ablations import (
     TABLES,
+    checkpoint_page,
     command_of,
     folder_of,
     main,
-    retrieval_page,
     train_rows,
     trained,
 )
-from motionrt_training.recipes import temos, tmr
+from motionrt_training.recipes import temos, tmr, transnet
 
-RECIPES = {"tmr": tmr, "temos": temos}
+RECIPES = {"tmr": tmr, "temos": temos, "transnet": transnet}
 
 
 def options(folder: Path, also: str = "--layers 3") -> argparse.Namespace:
@@ -55,7 +55,7 @@ def test_rows_are_trained_once_and_their_own_measures_make_the_page(tmp_path: Pa
     train_rows(table, options(tmp_path), train)
     train_rows(table, options(tmp_path), train)
     assert len(asked) == len(table.rows)
-    page = retrieval_page(table, trained(table, options(tmp_path)), tmp_path)
+    page = checkpoint_page(table, trained(table, options(tmp_path)), tmp_path)
     assert "| margin loss | 7 | 2.0 | 13.0 | nan |" in page
 
 
@@ -87,3 +87,11 @@ def test_only_the_rows_that_are_there_are_measured_when_nothing_is_to_be_trained
     lines = (tmp_path / "rivals.md").read_text(encoding="utf-8").splitlines()
     assert lines[-1].startswith("| Guo-style: GRUs, margin loss | 9 | 6.0 | 12.5 |")
     assert len([line for line in lines if line.startswith("|")]) == 3
+
+
+def test_transitions_are_told_in_centimetres_and_skate(tmp_path: Path) -> None:
+    table = TABLES["window"]
+    state = {"measures": {"joint_cm": 12.34, "pose_cm": 5.0, "skate": 1.234}, "step": 9, "elapsed": 360.0}
+    save_atomically(state, folder_of(tmp_path, table, table.rows[1]) / "best.pt")
+    page = checkpoint_page(table, trained(table, options(tmp_path)), tmp_path)
+    assert page.splitlines()[-1] == "| M = 120 (the paper's) | 9 | 6.0 | 12.3 | 5.0 | 1.23 |"

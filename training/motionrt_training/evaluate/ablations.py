@@ -26,7 +26,13 @@ from motionrt_training.evaluate.simultaneous import LONGEST
 from motionrt_training.evaluate.tables import markdown
 
 Run = Callable[[list[str]], None]
-SCORES = ("t2m_R1", "t2m_R3", "t2m_R10", "t2m_MedR", "m2t_R1", "m2t_R10", "side", "path")
+SCORES = {
+    "tmr": [
+        f"test_{name}" for name in ["t2m_R1", "t2m_R3", "t2m_R10", "t2m_MedR", "m2t_R1", "m2t_R10", "side", "path"]
+    ],
+    "transnet": ["joint_cm", "pose_cm", "skate"],
+}
+"""What the checkpoints of a recipe measured: search on the test split; transitions on that of validation."""
 
 
 @dataclass(frozen=True)
@@ -103,6 +109,14 @@ TABLES: Mapping[str, Table] = {
         Row("real pairs, 50 % of random parts", f"{LABELS} --synthetic 0.5 --random-parts"),
         Row("no real pairs, 100 % of random parts", f"{SINGLES} --synthetic 1 --random-parts"),
     )),
+    "window": Table("Continual, choice of M", "transnet", (
+        Row("M = 100", "--window 100"), Row("M = 120 (the paper's)"), Row("M = 180", "--window 180"),
+    )),
+    "transition": Table("Continual, training of TransNet", "transnet", (
+        Row("as shipped"),
+        Row("by squares of the features alone", "--loss l2"),
+        Row("as published: squares, no patches, lr 1e-5", "--loss l2 --patch 1 --lr 1e-5"),
+    )),
 }  # fmt: skip
 """Name -> table; two rows of the same options are trained once."""
 
@@ -114,11 +128,11 @@ def folder_of(out: Path, table: Table, row: Row) -> Path:
 
 
 def command_of(table: Table, row: Row, args: argparse.Namespace) -> list[str]:
-    """The command line that trains a row."""
+    """The command line that trains a row; its own options hold against those for every row."""
     words = [sys.executable, "-m", f"motionrt_training.recipes.{table.recipe}", "--corpus", str(args.corpus)]
     words += ["--out", str(folder_of(args.out, table, row)), "--minutes", str(args.minutes)]
     words += ["--captions-file", str(args.captions)] if table.recipe == "temos" else []
-    return [*words, *row.options.split(), *shlex.split(args.also)]
+    return [*words, *shlex.split(args.also), *row.options.split()]
 
 
 def train_rows(table: Table, args: argparse.Namespace, run: Run) -> None:
@@ -133,14 +147,15 @@ def trained(table: Table, args: argparse.Namespace) -> list[Row]:
     return [row for row in table.rows if (folder_of(args.out, table, row) / "best.pt").is_file()]
 
 
-def retrieval_page(table: Table, rows: Sequence[Row], out: Path) -> str:
-    """Rows of a table of TMR as their checkpoints measured them: the test split, all against all."""
-    head = ["", "steps", "minutes", *(name.replace("_", " ") for name in SCORES)]
+def checkpoint_page(table: Table, rows: Sequence[Row], out: Path) -> str:
+    """Rows of a table as their checkpoints measured them, see `SCORES`."""
+    scores = SCORES[table.recipe]
+    head = ["", "steps", "minutes", *(name.removeprefix("test_").replace("_", " ") for name in scores)]
     body = []
     for row in rows:
         state = load_state(folder_of(out, table, row) / "best.pt")
-        figures = [state["measures"].get(f"test_{name}", float("nan")) for name in SCORES]
-        body.append([row.name, state["step"], f"{state['elapsed'] / 60:.1f}", *(f"{value:.1f}" for value in figures)])
+        figures = (f"{state['measures'].get(name, float('nan')):.{2 if name == 'skate' else 1}f}" for name in scores)
+        body.append([row.name, state["step"], f"{state['elapsed'] / 60:.1f}", *figures])
     return markdown(head, body)
 
 
@@ -171,7 +186,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     """The command line."""
     parser = argparse.ArgumentParser(description="Train and measure the rows of a paper's table.")
     parser.add_argument("table", choices=tuple(TABLES))
-    parser.add_argument("--corpus", type=Path, required=True, help="pairs.npz for TMR, recordings.npz for SINC")
+    parser.add_argument("--corpus", type=Path, required=True, help="pairs.npz for TMR, recordings.npz for others")
     parser.add_argument("--captions", type=Path, help="SINC: captions.jsonl with labels and parts")
     parser.add_argument("--score", type=Path, help="SINC: checkpoint whose motion encoder gives the TEMOS score")
     parser.add_argument("--out", type=Path, required=True, help="folder of the runs and of the page")
@@ -193,7 +208,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     rows = trained(table, args)
     if not rows:
         raise InvalidInputError(f"no row of the table is trained in {args.out}; leave out --trained")
-    body = retrieval_page(table, rows, args.out) if table.recipe == "tmr" else pair_page(table, rows, args)
+    body = pair_page(table, rows, args) if table.recipe == "temos" else checkpoint_page(table, rows, args.out)
     heading = f"# {table.paper}\n\nEach row was trained for {args.minutes:g} minutes {args.also}".rstrip()
     page = args.out / f"{args.table}.md"
     page.write_text(f"{heading}, on {args.corpus}.\n\n{body}\n", encoding="utf-8", newline="\n")
