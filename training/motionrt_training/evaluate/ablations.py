@@ -209,7 +209,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
     if not rows:
         raise InvalidInputError(f"no row of the table is trained in {args.out}; leave out --trained")
     body = pair_page(table, rows, args) if table.recipe == "temos" else checkpoint_page(table, rows, args.out)
-    heading = f"# {table.paper}\n\nEach row was trained for {args.minutes:g} minutes {args.also}".rstrip()
+    how = f" with `{args.also}`" if args.also else ""
+    heading = f"# {table.paper}\n\nEach row was trained for at most {args.minutes:g} minutes{how}"
     page = args.out / f"{args.table}.md"
     page.write_text(f"{heading}, on {args.corpus}.\n\n{body}\n", encoding="utf-8", newline="\n")
     print(page)
