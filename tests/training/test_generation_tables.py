@@ -170,6 +170,13 @@ def test_the_ruler_measures_mean_average_and_best(corpus) -> None:
     assert row.pairs == 2
 
 
+def test_rows_are_compared_pair_by_pair_with_the_first_one(corpus) -> None:
+    assert pair_tables.difference([0.5, 0.7, 0.9], [0.4, 0.5, 0.6]) == "+0.200 ± 0.058"  # 0.1 / sqrt(3)
+    ruler = pair_tables.Ruler(read_action_pairs(*corpus), {"height": place})
+    rows = {"told": ruler.row(Truthful()), "again": ruler.row(Truthful())}
+    assert pair_tables.difference_table(rows).splitlines()[-1] == "| again | +0.000 ± 0.000 |"
+
+
 def test_the_held_first_pose_is_off_by_the_way_walked(corpus) -> None:
     row = pair_tables.Ruler(read_action_pairs(*corpus)[:1], {}).row(first_pose)
     assert row.mean.ape.trajectory == pytest.approx(1.2 * 14.5 / 30, rel=0.05)  # 1.2 m/s, 30 frames
@@ -188,7 +195,7 @@ def test_the_command_writes_table_and_figures(corpus, tmp_path, monkeypatch) -> 
     generation.main(["pairs", *files, *rows, "--samples", "2", "-o", str(out), "--json", str(figures)])
     page, found = out.read_text(encoding="utf-8"), json.loads(figures.read_text(encoding="utf-8"))
     assert page.startswith("2 test clips with two simultaneous labels; in 2 of them")
-    assert [line.split(" |")[0] for line in page.splitlines() if line.startswith("| t")] == ["| two", "| three"] * 3
+    assert [line.split(" |")[0] for line in page.splitlines() if line.startswith("| t")] == ["| two", "| three"] * 4
     assert "Best of 2 samples" in page
     assert found["rows"]["one"]["mean"] == found["rows"]["three"]["mean"] != found["rows"]["two"]["mean"]
     assert 0 < found["rows"]["one"]["mean"]["scores"]["TEMOS"] < 1

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass, fields
+from dataclasses import asdict, dataclass, field, fields
 
 import numpy as np
 
@@ -24,6 +24,7 @@ class Measures:
 
     Attributes:
         scores: TEMOS score by each motion encoder.
+        each: the same of every pair, so that rows can be compared pair by pair.
         ape: metres.
         ave: square metres.
     """
@@ -31,6 +32,7 @@ class Measures:
     scores: Scores
     ape: metrics.PositionErrors
     ave: metrics.PositionErrors
+    each: Mapping[str, list[float]] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -70,11 +72,12 @@ class Ruler:
 
     def _measured(self, motions: Sequence[Motion]) -> Measures:
         bodies = [metrics.Body.of(motion) for motion in motions]
-        scores = {
-            name: float(metrics.temos_scores(_encoded(encode, motions), self._truth[name]).mean())
+        each = {
+            name: [float(s) for s in metrics.temos_scores(_encoded(encode, motions), self._truth[name])]
             for name, encode in self._encoders.items()
         }
-        return Measures(scores, metrics.ape(bodies, self._bodies), metrics.ave(bodies, self._bodies))
+        means = {name: float(np.mean(scores)) for name, scores in each.items()}
+        return Measures(means, metrics.ape(bodies, self._bodies), metrics.ave(bodies, self._bodies), each)
 
 
 def pair_table(rows: Mapping[str, PairRow], which: str = "mean") -> str:
@@ -95,10 +98,26 @@ def pair_table(rows: Mapping[str, PairRow], which: str = "mean") -> str:
     return markdown(head, body)
 
 
+def difference(scores: Sequence[float], others: Sequence[float]) -> str:
+    """How far scores are above those of another row for the same pairs: mean and its standard error."""
+    apart = np.subtract(scores, others)
+    return f"{apart.mean():+.3f} ± {apart.std(ddof=1) / len(apart) ** 0.5:.3f}" if len(apart) > 1 else ""
+
+
+def difference_table(rows: Mapping[str, PairRow]) -> str:
+    """Each row's scores less those of the first, pair by pair, of the mean latents."""
+    measured = {name: row.mean for name, row in rows.items()}
+    first, *others = measured
+    encoders = list(measured[first].each)
+    body = [[name, *(difference(measured[name].each[e], measured[first].each[e]) for e in encoders)] for name in others]
+    return markdown([f"less '{first}'", *(f"score ({name})" for name in encoders)], body)
+
+
 def pair_page(rows: Mapping[str, PairRow], pairs: Sequence[ActionPair], samples: int) -> str:
     """All tables, and on how many pairs."""
     fitting = sum(pair.fits for pair in pairs)
     parts = [_INTRODUCTION.format(pairs=len(pairs), fitting=fitting), "**Mean latent**", pair_table(rows)]
+    parts += ["**Mean latent, pair by pair**", difference_table(rows)]
     if samples:
         parts += [f"**Mean over {samples} samples**", pair_table(rows, "average")]
         parts += [f"**Best of {samples} samples by mean global APE**", pair_table(rows, "best")]
