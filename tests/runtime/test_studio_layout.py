@@ -8,8 +8,12 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from motions import walking
 
 from motionrt.errors import InvalidInputError
+from motionrt.studio.bodies import figure_box
+from motionrt.studio.clips import Clip, colour
+from motionrt.studio.figure import figure_of
 from motionrt.studio.layout import AS_RECORDED, OVERLAID, SIDE_BY_SIDE, frame_all, offsets
 from motionrt.studio.showing import checked_layout
 
@@ -73,3 +77,14 @@ def test_layouts_are_understood_with_hyphens_and_unknown_ones_refused() -> None:
     assert checked_layout("Side-by-side") == SIDE_BY_SIDE
     with pytest.raises(InvalidInputError, match="did you mean 'overlaid'"):
         checked_layout("overlayed")
+
+
+def test_what_is_framed_of_a_figure_holds_all_of_its_skin_and_not_only_its_joints() -> None:
+    clip, figure = Clip("walk", walking(20), colour(0)), figure_of()
+    turns, joints, (low, high) = clip.motion.global_rotations()[:, :22], clip.joints, figure_box(clip)
+    for frame in range(0, 20, 4):
+        moved = np.einsum("fij,vfj->vfi", turns[frame], figure.vertices[:, None] - figure.bones) + joints[frame]
+        skin = np.einsum("vf,vfi->vi", figure.weights, moved)
+        assert (skin >= low).all()
+        assert (skin <= high).all()
+        assert skin[:, 1].max() > clip.box[1, 1] + 0.1  # the head is above its joint

@@ -99,7 +99,7 @@ def test_search_plays_hits_and_a_click_plays_one(studio: Callable[[], Page]) -> 
     page.click("Find")
     page.wait_text("4 hits in")
     page.wait_text("rank 3 · score 0.70")  # three side by side
-    page.click("2. 0.80 a person walks in a circle")
+    page.click("Play 2 · score 0.80")
     wait_until(lambda: "rank 3 · score" not in page.text(), 20, "one hit alone")
     assert "rank 2 · score 0.80" in page.text()
     page.fill("Text", "a unicorn")
@@ -128,7 +128,7 @@ def test_generate_compose_describe_and_export(studio: Callable[[], Page], tmp_pa
     file = wait_until(lambda: next(tmp_path.glob("*.bvh"), None), 20, "a download")
     wait_until(lambda: file.read_bytes().endswith(b"\n"), 10, "all of it")
     assert load_motion(file).frames == 80
-    page.click("Save in saved")
+    page.click("Save in the folder saved")
     assert wait_until(lambda: list((tmp_path / "saved").glob("*.bvh")), 10, "a saved file")
 
 

@@ -16,6 +16,7 @@ from motionrt.studio.figure import figure_of
 
 COLOURS = 5  # of a character: viser gives a skinned mesh one colour, so that it is cut into as many
 CROWN = 0.2  # metres of the figure above its highest joint
+FLESH, SOLE = 0.13, 0.03  # metres of it beside its joints, and below
 VERTICES = 120_000  # of a character, at most
 
 
@@ -34,6 +35,9 @@ class Body(Protocol):
 
     def suits(self, skeleton: Skeleton, character: Character | None) -> bool:
         """Whether it can play a clip of a skeleton as that character."""
+
+    def box(self, clip: Clip) -> FloatArray:
+        """``(2, 3)`` lowest and highest corner of all that its skin touches while it plays the clip, metres."""
 
 
 class FigureBody:
@@ -66,6 +70,10 @@ class FigureBody:
         """Whether the figure is wanted, in these proportions."""
         return character is None and skeleton == self._skeleton
 
+    def box(self, clip: Clip) -> FloatArray:
+        """Of the joints, and the flesh around them."""
+        return figure_box(clip)
+
 
 @dataclass(frozen=True, eq=False)
 class _Piece:
@@ -93,6 +101,7 @@ class CharacterBody:
         self.play(clip)
         worn = self._worn
         self._crown = max(0.0, float(worn.rest_vertices[:, 1].max() - worn.rest_places[:, 1].max()))
+        self._around = _corners(worn.rest_vertices) - _corners(worn.rest_places)
         self._pieces = self._cut(scene, name, worn)
 
     def pose(self, joints: FloatArray, turns: FloatArray, time: float) -> float:  # noqa: ARG002
@@ -113,6 +122,11 @@ class CharacterBody:
         """Whether this character is wanted: it plays clips of any skeleton."""
         return character is self._character
 
+    def box(self, clip: Clip) -> FloatArray:  # noqa: ARG002
+        """Of its own joints, and as much around them as in the pose that the mesh was bound in."""
+        worn = self._worn
+        return _corners(worn.places.reshape(-1, 3)) + self._around
+
     @staticmethod
     def _cut(scene: Any, name: str, worn: Dressed) -> list[_Piece]:
         skin, pieces = worn.skin.with_fewer_colours(COLOURS), []
@@ -129,6 +143,16 @@ class CharacterBody:
             )  # fmt: skip
             pieces.append(_Piece(node, joints))
         return pieces
+
+
+def figure_box(clip: Clip) -> FloatArray:
+    """``(2, 3)`` corners of what the figure touches in a clip: its joints, and the flesh around them."""
+    around = np.array([[-FLESH, -SOLE, -FLESH], [FLESH, CROWN, FLESH]], np.float32)
+    return np.asarray(clip.box + around, np.float32)
+
+
+def _corners(points: FloatArray) -> FloatArray:
+    return np.stack([points.min(axis=0), points.max(axis=0)])
 
 
 def _upright(bones: int) -> FloatArray:

@@ -30,7 +30,9 @@ class ExportPanel:
         download: Any = gui.add_button("Download", icon="download", color="blue")
         download.on_click(session.guarded(lambda _: self.download()))
         if folder is not None:
-            save: Any = gui.add_button(f"Save in {folder.name or folder}", icon="device-floppy", hint=str(folder))
+            save: Any = gui.add_button(
+                f"Save in the folder {folder.name or folder}", icon="device-floppy", hint=str(folder)
+            )
             save.on_click(session.guarded(lambda _: self.save()))
 
     def refresh(self) -> None:

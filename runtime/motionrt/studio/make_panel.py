@@ -9,6 +9,7 @@ from motionrt.motion import Motion
 from motionrt.motion.body_parts import PARTS
 from motionrt.studio.clips import Clip
 from motionrt.studio.jobs import Told
+from motionrt.synthesis.sampling import LONGEST_S, SHORTEST_S
 
 if TYPE_CHECKING:
     from motionrt.retrieval import Description
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
 
 ALIGN = {"from the start": "start", "stretched": "stretch", "in step": "phase"}
 EMPTY = "empty"
-LONGEST_S, MOST = 8.0, 6
+MOST = 6
 
 
 class MakePanel:
@@ -46,7 +47,7 @@ class MakePanel:
     def _add_generate(self, gui: Any) -> None:
         with gui.add_form(None) as form:
             self._text: Any = gui.add_text("What", initial_value="wave the right hand")
-        self._seconds: Any = gui.add_slider("Seconds", 0.5, LONGEST_S, 0.5, 4.0)
+        self._seconds: Any = gui.add_slider("Seconds", SHORTEST_S, max(LONGEST_S.values()), 0.5, 4.0)
         self._count: Any = gui.add_slider("How many", 1, MOST, 1, 1)
         self._seed: Any = gui.add_number("Seed", 0, min=0, max=2**31 - 1, step=1)
         go: Any = gui.add_button("Generate", icon="wand", color="blue")

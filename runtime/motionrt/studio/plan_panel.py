@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 PLACE, TARGET = "Place", "Hand or foot"
 _EXAMPLE = "walk forward"
 _MARK = 0.07  # metres, of a mark in the picture
+LATEST_S = 10.0  # of a place or target where there is no text yet
 
 
 class PlanPanel:
@@ -58,7 +59,7 @@ class PlanPanel:
         add.on_click(guarded(lambda _: self.add_text()))
 
     def _add_constraints(self, gui: Any) -> None:
-        self._time: Any = gui.add_slider("At (s)", 0.0, 10.0, 0.1, 2.0)
+        self._time: Any = gui.add_slider("At (s)", 0.0, LATEST_S, 0.1, 2.0)
         self._joint: Any = gui.add_dropdown("Which", JOINTS, initial_value="right_wrist")
         self._height: Any = gui.add_slider("Height (m)", 0.0, 2.2, 0.05, 1.2, hint="Of a hand or foot")
         which: Any = gui.add_button_group("Click in the picture", ("Look", PLACE, TARGET))
@@ -102,7 +103,8 @@ class PlanPanel:
         """Show a draft."""
         self.draft = draft
         self._picture.content = draft.picture()
-        self._time.max = max(draft.duration, 1.0)
+        self._time.max = max(draft.duration, 1.0) if draft.lines else LATEST_S
+        self._time.value = min(float(self._time.value), self._time.max)
         for row in self._rows:
             row.remove()
         with self._lines:

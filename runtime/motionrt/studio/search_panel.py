@@ -86,22 +86,26 @@ class SearchPanel:
 
 
 def label(hit: Hit) -> str:
-    """What stands on the button of a hit: rank, score and clip."""
-    name = hit.text or Path(hit.id).stem.replace("-", " ")
-    short = name if len(name) <= 34 else f"{name[:33]}…"
-    return f"{hit.rank}.  {hit.score:.2f}  {short}"
+    """What stands on the button of a hit; its words, which may be long, stand below."""
+    return f"Play {hit.rank} · score {hit.score:.2f}"
 
 
 def card(hit: Hit, motion: Motion | None) -> str:
-    """HTML below the button of a hit: where it lies, how long it is, its words, and a strip of poses."""
+    """HTML below the button of a hit: its words, how long it is, where it lies, and a strip of poses."""
     folder = Path(hit.id).parent.as_posix()
-    facts = (f"{hit.end_s - hit.start_s:.1f} s", folder if folder != "." else "", hit.text or "")
+    facts = (f"{hit.end_s - hit.start_s:.1f} s", folder if folder != "." else "")
     said = html.escape(" · ".join(fact for fact in facts if fact))
-    words = f'<div style="opacity:0.7;overflow-wrap:anywhere">{said}</div>'
-    drawn = "" if motion is None else f'<div style="zoom:0.62">{strip(motion, STRIP)}</div>'
-    return f'<div style="padding:0 0.8em 0.5em;font-size:0.8em;line-height:1.25">{drawn}{words}</div>'
+    words = f'<div>{html.escape(name_of(hit))} <span style="opacity:0.7">· {said}</span></div>'
+    drawn = "" if motion is None else f'<div style="zoom:0.62;margin-top:0.6em">{strip(motion, STRIP)}</div>'
+    style = "padding:0 0.8em 0.5em;font-size:0.8em;line-height:1.3;overflow-wrap:anywhere"
+    return f'<div style="{style}">{words}{drawn}</div>'
 
 
 def _row(hit: Hit, motion: Motion) -> Row:
     note = f"rank {hit.rank} · score {hit.score:.2f} · {hit.start_s:.1f}–{hit.end_s:.1f} s"
-    return Path(hit.id).stem, motion.canonical(), note
+    return name_of(hit), motion.canonical(), note
+
+
+def name_of(hit: Hit) -> str:
+    """What a clip is called on the page: its words, or the name of its file."""
+    return hit.text or Path(hit.id).stem

@@ -10,6 +10,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from motionrt.errors import InvalidInputError
+from motionrt.studio.bodies import figure_box
 from motionrt.studio.gate import Gate, serving_through
 from motionrt.studio.layout import AS_RECORDED, frame_all, offsets
 from motionrt.studio.session import ASPECT, FIELD_OF_VIEW, PANEL_PIXELS, Session, scenery_boxes
@@ -223,7 +224,7 @@ def _sky() -> Any:
 
 def _aim(server: Any, show: Show) -> None:
     """Where cameras begin, and where "reset view" leads."""
-    boxes = [clip.box for clip in show.clips]
+    boxes = [figure_box(clip) for clip in show.clips]
     moves = offsets(boxes, [clip.motion.root[0] for clip in show.clips], show.layout or AS_RECORDED)
     placed = [box + move for box, move in zip(boxes, moves, strict=True)]
     place, target = frame_all([*placed, *scenery_boxes(show.scenery)], FIELD_OF_VIEW, ASPECT, PANEL_PIXELS / 1280)

@@ -14,14 +14,14 @@ import numpy as np
 from motionrt.errors import MotionRTError
 from motionrt.formats import Character
 from motionrt.motion.skeleton import FloatArray
-from motionrt.studio import layout, shapes
+from motionrt.studio import layout, shapes, titles
 from motionrt.studio.bodies import Body, CharacterBody, FigureBody
 from motionrt.studio.clips import Clip
 
 SHADOW, STEP_HEIGHT, TRAIL_HEIGHT = 0.004, 0.010, 0.007  # metres above the ground, so that nothing flickers
 BLOT = ((0.32, 0.0), (0.24, 0.001), (0.15, 0.002))  # radius and lift of its discs, metres
 SHADOW_COLOUR = (40, 44, 56)
-TITLE_ABOVE = 0.08  # metres above the head
+TITLE_ABOVE, TITLE_ROOM = 0.08, 0.3  # metres above the head: where a name begins, and where it ends
 
 
 @dataclass
@@ -52,8 +52,8 @@ class Actor:
 
     @property
     def box(self) -> FloatArray:
-        """``(2, 3)`` corners of all that it touches, on the stage."""
-        return self.clip.box + self.offset
+        """``(2, 3)`` corners of all that its skin touches, on the stage."""
+        return self.body.box(self.clip) + self.offset
 
 
 class Stage:
@@ -88,8 +88,13 @@ class Stage:
 
     @property
     def boxes(self) -> list[FloatArray]:
-        """Boxes around all visible clips."""
-        return [actor.box for actor in self.actors if actor.visible]
+        """Boxes around all visible clips, with the names over them."""
+        above = np.array([[0, 0, 0], [0, TITLE_ROOM if self._titled else 0, 0]], np.float32)
+        return [actor.box + above for actor in self.actors if actor.visible]
+
+    @property
+    def _titled(self) -> bool:
+        return self.look.titles and len(self.actors) > 1
 
     def show(self, clips: Sequence[Clip], time: float = 0.0) -> None:
         """Show these clips and no others; those that stay are not sent again."""
@@ -126,7 +131,7 @@ class Stage:
     def arrange(self, time: float) -> None:
         """Place the clips by the layout, and draw what does not move."""
         seen = [actor for actor in self.actors if actor.visible]
-        boxes, starts = [a.clip.box for a in seen], [a.clip.motion.root[0] for a in seen]
+        boxes, starts = [a.body.box(a.clip) for a in seen], [a.clip.motion.root[0] for a in seen]
         for actor, offset in zip(seen, layout.offsets(boxes, starts, self.look.layout), strict=True):
             actor.offset = offset
             actor.root.position = tuple(map(float, offset))
@@ -141,6 +146,20 @@ class Stage:
             for actor in self.actors:
                 if actor.visible:
                     _draw(actor, time)
+            self._part_titles()
+
+    def _part_titles(self) -> None:
+        """Names that lie upon each other in the picture are parted."""
+        titled, camera = [actor for actor in self.actors if actor.title is not None], self.client.camera
+        if len(titled) < 2 or not camera.image_height:
+            return
+        places = np.array([np.add(actor.title.position, actor.offset) for actor in titled], np.float32)
+        widths = np.array([titles.width(actor.title.text) for actor in titled], np.float32)
+        up = titles.lifts(places, widths, camera.position, camera.look_at, camera.fov, camera.image_height)
+        for actor, lift in zip(titled, up.tolist(), strict=True):
+            if lift:
+                x, y, z = actor.title.position
+                actor.title.position = (x, y + lift, z)
 
     def focus(self, time: float) -> FloatArray:
         """``(3,)`` middle of the visible figures at a time, metres."""
@@ -199,10 +218,9 @@ class Stage:
             actor.extras.append(scene.add_mesh_simple(f"{name}/steps", *marks, opacity=0.35, **plain))
         for ring in actor.feet:
             ring.visible = False
-        if self.look.titles and len(self.actors) > 1:
-            actor.title = scene.add_label(
-                f"{name}/title", actor.clip.name[:40], font_screen_scale=0.85, anchor="bottom-center"
-            )
+        if self._titled:
+            title = titles.short(f"{self.actors.index(actor) + 1}. {actor.clip.name}", len(self.actors))
+            actor.title = scene.add_label(f"{name}/title", title, font_screen_scale=0.85, anchor="bottom-center")
             actor.extras.append(actor.title)
         if self.look.names:
             joints = zip(actor.clip.motion.skeleton.names, actor.clip.joints[0], strict=False)

@@ -79,7 +79,8 @@ class ViewPanel:
         self._session.follow = self._follow.value = on
 
     def _switch(self, actor: Actor) -> Any:
-        box = self._session.client.gui.add_checkbox(actor.clip.name[:40], initial_value=actor.visible)
+        number = self._session.stage.actors.index(actor) + 1
+        box = self._session.client.gui.add_checkbox(f"Show {number}", initial_value=actor.visible, hint=actor.clip.name)
 
         def changed(_: Any) -> None:
             actor.visible = bool(box.value)
@@ -104,10 +105,14 @@ def legend(actors: Sequence[Actor], unsaved: Sequence[Clip] = ()) -> str:
     """Colour, name, length and frame rate of every clip, and whether it is to be saved yet, as HTML."""
     if not actors:
         return '<div style="padding:0.3em 0.6em;opacity:0.6;font-size:0.85em">Nothing on the stage yet.</div>'
-    return "".join(_row(actor, unsaved=actor.clip in unsaved) for actor in actors)
+    several = len(actors) > 1
+    return "".join(
+        _row(actor, f"{number}. " if several else "", unsaved=actor.clip in unsaved)
+        for number, actor in enumerate(actors, start=1)
+    )
 
 
-def _row(actor: Actor, *, unsaved: bool) -> str:
+def _row(actor: Actor, number: str, *, unsaved: bool) -> str:
     clip = actor.clip
     dot = f"background:rgb{clip.colour};width:0.8em;height:0.8em;border-radius:50%;flex:none"
     facts = f"{clip.motion.duration:.1f} s · {clip.motion.fps:g} fps"
@@ -115,6 +120,6 @@ def _row(actor: Actor, *, unsaved: bool) -> str:
     note += f'<span class="{UNSAVED}"> · not saved</span>' if unsaved else ""
     return (
         '<div style="display:flex;gap:0.6em;align-items:center;padding:0.25em 0.6em;font-size:0.85em;line-height:1.25">'
-        f'<span style="{dot}"></span><span style="overflow-wrap:anywhere">{html.escape(clip.name)}'
+        f'<span style="{dot}"></span><span style="overflow-wrap:anywhere">{number}{html.escape(clip.name)}'
         f'<br><span style="opacity:0.55">{facts}{note}</span></span></div>'
     )
