@@ -16,7 +16,7 @@ from motionrt.studio.figure import figure_of
 
 COLOURS = 5  # of a character: viser gives a skinned mesh one colour, so that it is cut into as many
 CROWN = 0.2  # metres of the figure above its highest joint
-FLESH, SOLE = 0.13, 0.03  # metres of it beside its joints, and below
+FLESH, SOLE = 0.21, 0.06  # metres that it reaches beside and above its joints (fingers, toes, head), and below
 VERTICES = 120_000  # of a character, at most
 
 
@@ -147,7 +147,7 @@ class CharacterBody:
 
 def figure_box(clip: Clip) -> FloatArray:
     """``(2, 3)`` corners of what the figure touches in a clip: its joints, and the flesh around them."""
-    around = np.array([[-FLESH, -SOLE, -FLESH], [FLESH, CROWN, FLESH]], np.float32)
+    around = np.array([[-FLESH, -SOLE, -FLESH], [FLESH, FLESH, FLESH]], np.float32)
     return np.asarray(clip.box + around, np.float32)
 
 
