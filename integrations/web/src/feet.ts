@@ -5,7 +5,8 @@ import { add, clamp, length, minus, times, type Numbers, type Vec3 } from "./rot
 
 export const BLEND_S = 0.2; // seconds over which a correction fades
 const MAX_DROP = 0.05; // metres that the pelvis may sink for a foot that would not reach
-const CLEARANCE = 0.02; // metres above the floor of a toe that swings by
+const QUICKENS = 1.25; // times the speed from which a toe swings by which it is faster when it keeps all of its clearance
+const CLEARANCE = 0.03; // metres above the floor of a toe that swings by
 export const MAX_SHIFT = 0.1; // metres that a toe is moved in a contact
 const DOWN = 0.025; // metres
 const CALMER = 0.25;
@@ -30,21 +31,15 @@ export function runsOf(flags: boolean[]): Run[] {
   return found;
 }
 
-/** How high toes swing: metres above the floor, and m/s above which they do; all of it is kept at twice that. */
-export interface Swing {
-  clearance: number;
-  from: number;
-}
-
-/** The motion, on the floor, with feet that stand still while they stand and swing clear of the floor. */
-export function lockFeet(motion: Motion, swing: Swing = { clearance: CLEARANCE, from: LOOSE_SPEED }): Motion {
+/** The motion, on the floor, with feet that stand still while they stand and swing clear of the floor: from so many m/s on. */
+export function lockFeet(motion: Motion, swingsFrom = LOOSE_SPEED): Motion {
   const { fps } = motion;
   const found = LEGS.map(([, , , toe]) => {
     const toes = wayOf(motion, toe);
     const speed = speeds(toes, fps);
     const planted = plantedOf(toes, speed, fps);
     const offset = pinned(toes, planted, speed.map(calm), BLEND_S * fps);
-    offset.forEach((way, f) => (way[1] += lift(toes[f][1] + way[1], speed[f], swing)));
+    offset.forEach((way, f) => (way[1] += lift(toes[f][1] + way[1], speed[f], swingsFrom)));
     return { planted, offset };
   });
   return moved(motion, found.map(({ offset }) => offset), found.map(({ planted }) => planted));
@@ -161,9 +156,9 @@ function tail(offset: Vec3[], edge: number, inward: number, time: number, span: 
 }
 
 /** Metres to raise a toe that moves at `speed`: not negative, and smooth. */
-function lift(height: number, speed: number, { clearance, from }: Swing): number {
-  const s = clamp((speed - from) / from, 0, 1);
-  const swings = clearance * s * s * (3 - 2 * s);
+function lift(height: number, speed: number, swingsFrom: number): number {
+  const s = clamp((speed - swingsFrom) / (QUICKENS * swingsFrom), 0, 1);
+  const swings = CLEARANCE * s * s * (3 - 2 * s);
   const short = swings - height;
   return (short + Math.sqrt(short * short + (swings / 2) ** 2)) / 2;
 }

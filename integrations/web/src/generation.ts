@@ -21,7 +21,7 @@ const [HIGHEST, LOWEST, BEND] = [60, 0.15, 7]; // noise levels (Karras et al. 20
 const [POSE_GUIDANCE, TURN_GUIDANCE] = [5, 1.3];
 const [LATE, GUIDED] = [2.5, 2]; // noise levels below which the way is corrected, and down to which texts are guided
 const [NETWORK, OVERLAP] = [200, 5]; // frames at 20 fps: that the network sees, over which texts pass into each other
-const SWING = { clearance: 0.03, from: 0.45 }; // metres and m/s: a generated foot that swings drags more than a recorded one
+const SWINGS_FROM = 0.4; // m/s: a generated foot that swings drags more than a recorded one
 
 export interface Sampling {
   /** Seconds, 0.5 to 10. */
@@ -71,7 +71,7 @@ export class Generator {
     const motion = asMotion(rows, wanted);
     const drawn = motion.slice(0, Math.min(motion.frames, wanted));
     const finished = uprightGround(withHeads(drawn, lines.map(({ text }, i) => ({ text, ...times[i] }))).canonical().grounded());
-    return sampling.footLock ?? true ? lockFeet(stepWhereSliding(finished), SWING) : finished;
+    return sampling.footLock ?? true ? lockFeet(stepWhereSliding(finished), SWINGS_FROM) : finished;
   }
 
   private async pieces(lines: Line[], times: Time[], given?: TokenFeatures): Promise<{ pieces: Piece[]; frames: number }> {

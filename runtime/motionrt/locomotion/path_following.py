@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from motionrt.errors import InvalidInputError, WalkError
 from motionrt.locomotion.crowd import FPS, SPEED, Crowd, NextFrame, history_of, to_motion
-from motionrt.locomotion.leading import helped, led, slowed
+from motionrt.locomotion.leading import MOST_HURRIED, helped, led, slowed
 from motionrt.locomotion.path import Path
 from motionrt.locomotion.waypoints import RADIUS, WaypointTargets
 from motionrt.motion import Motion
@@ -23,6 +23,7 @@ ARRIVED = 0.1  # metres from the end of a path that are as good as there
 PATIENCE_S = 8.0  # seconds without coming nearer to a waypoint after which a character is stuck
 BEHIND, MISSED = 1.3, 2.0  # radians aside that are behind, and radii from a waypoint that are missed by little
 LEAVING = 0.05  # metres farther than before that somebody is who leaves
+_STRAIGHT = 75  # per cent of the seconds of a walk that are not the straightest and quickest
 NEARER = 0.02  # metres that count as nearer
 
 Progress = Callable[[int, int, str], None]
@@ -90,7 +91,8 @@ def walk_together(
     """
     if len(starts) != len(paths) or not paths:
         raise InvalidInputError(f"give one start for every path: {len(starts)} for {len(paths)}")
-    trips = [_Trip(path, pace or Pace(), motion.root[-1, [0, 2]]) for path, motion in zip(paths, starts, strict=True)]
+    pace = pace or Pace()
+    trips = [_Trip(path, pace, motion.root[-1, [0, 2]]) for path, motion in zip(paths, starts, strict=True)]
     crowd = Crowd(model, np.stack([history_of(motion) for motion in starts]))
     walking = list(trips)
     while walking:
@@ -102,11 +104,24 @@ def walk_together(
         aims = np.stack([trip.goal for trip in walking])
         crowd.history = helped(aims, crowd.history)
         goals = led(aims, crowd.history[:, -1])
-        speeds = slowed(aims, crowd.history[:, -1], walking[0].pace.speed)
+        speeds = slowed(aims, crowd.history[:, -1], max(pace.speed, SPEED))
         for trip, frame in zip(walking, crowd.step(goals, speeds), strict=True):
             trip.frames.append(frame)
         _tell(progress, trips)
-    return [trip.walked() for trip in trips]
+    return [in_time(trip.walked(), pace.speed) for trip in trips]
+
+
+def in_time(motion: Motion, speed: float) -> Motion:
+    """``motion`` played so much faster or slower that it goes at ``speed`` m/s where nothing slows it.
+
+    Networks walk best at the speeds of their training data: asked for less they glide, and all are a little slow.
+    """
+    share = min(1.0, speed / SPEED)
+    second = int(FPS)
+    if motion.frames > 2 * second:
+        way = np.cumsum(np.linalg.norm(np.diff(motion.root[:, [0, 2]], axis=0), axis=1))
+        share = min(MOST_HURRIED, speed / float(np.percentile(way[second:] - way[:-second], _STRAIGHT)))
+    return motion if share == 1.0 else replace(motion, fps=FPS * share).resample(FPS)
 
 
 class _Trip:

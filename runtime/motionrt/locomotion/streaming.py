@@ -119,8 +119,13 @@ class Stroller:
     def _lead(self, seen: Motion) -> Lead | None:
         facing, now = facing_of(seen), speed_of(seen, 0.2)
         if self.stick is None:
-            return towards(self.goal, place_of(seen), facing, now, self._pace(seen))
+            return None if self._creeps else towards(self.goal, place_of(seen), facing, now, self._pace(seen))
         return by_stick(self.stick.velocity or (0.0, 0.0), self.stick.facing, facing, now)
+
+    @property
+    def _creeps(self) -> bool:
+        """Whether it goes to goals too slowly for a walk, and so by steps."""
+        return self.speed < WALKS_FROM
 
     def _takes(self) -> float:
         """Seconds in which the goal shall be reached."""
@@ -149,9 +154,12 @@ class Stroller:
         away = apart((x, z), (self.goal.x, self.goal.z))
         if away <= STEPPED:
             if away > CLOSE or abs(wrapped(self.goal.heading - facing)) > CLOSE_TURN:
-                return self._step(seen, self.goal)
+                return self._step(seen, self.goal, self.speed if self._creeps else np.inf)
             return self._pause(seen)
-        return self._set_off(seen, float(np.arctan2(self.goal.x - x, self.goal.z - z)))
+        way = float(np.arctan2(self.goal.x - x, self.goal.z - z))
+        if self._creeps:
+            return self._step(seen, Goal(*ahead_of((x, z), way, min(ON, away)), way), self.speed)
+        return self._set_off(seen, way)
 
     def _by_stick(self, seen: Motion, stick: Wish, place: Place) -> Frames:
         """From a stand, or to one at ``place``: steps sideways or back, a turn, the first step of a walk, a pause."""

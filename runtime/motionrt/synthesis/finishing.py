@@ -7,7 +7,7 @@ from motionrt.motion.feet.flat_ground import upright_ground
 from motionrt.motion.feet.lock import lock_feet
 from motionrt.motion.feet.sliding import step_where_sliding
 
-CLEARANCE, SWINGS_FROM = 0.03, 0.45  # metres and m/s: a generated foot that swings drags more than a recorded one
+SWINGS_FROM = 0.4  # m/s: a generated foot that swings drags more than a recorded one
 
 
 def finished(motion: Motion, foot_lock: bool = True) -> Motion:
@@ -19,4 +19,4 @@ def locked(motion: Motion, foot_lock: bool = True) -> Motion:
     """Where it is; standing feet stand still, and feet that slid take steps."""
     if not foot_lock:
         return motion
-    return lock_feet(step_where_sliding(motion), clearance=CLEARANCE, swings_from=SWINGS_FROM)
+    return lock_feet(step_where_sliding(motion), swings_from=SWINGS_FROM)

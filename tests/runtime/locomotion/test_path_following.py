@@ -8,7 +8,9 @@ from fake_character_models import FPS, stays, towards_goal
 from motions import walking
 
 from motionrt.errors import InvalidInputError, WalkError
+from motionrt.locomotion.crowd import SPEED
 from motionrt.locomotion.goal_frame import Goal, uncanonicalise
+from motionrt.locomotion.leading import MOST_HURRIED
 from motionrt.locomotion.path import Path
 from motionrt.locomotion.path_following import PATIENCE_S, Pace, walk, walk_together
 from motionrt.locomotion.starting_poses import stride_of
@@ -25,6 +27,31 @@ def test_a_walk_takes_the_time_that_its_length_and_speed_say() -> None:
     assert motion.frames == pytest.approx(9 / 1.5 * FPS, abs=3)
     np.testing.assert_allclose(motion.root[-1, [0, 2]], [0, 9], atol=0.1)
     assert motion.root[0, 2] == pytest.approx(1.5 / FPS, abs=1e-4)  # the first new frame
+
+
+def test_who_shall_be_slower_than_people_walk_walks_all_the_same_and_takes_longer() -> None:
+    asked: list[float] = []
+
+    def remembers(frames: np.ndarray, speed: np.ndarray) -> np.ndarray:
+        asked.extend(speed.tolist())
+        return towards_goal(frames, speed)
+
+    path = Path(np.array([[0, 0], [0, 6]], np.float32))
+    motion = walk(remembers, STRIDE, path, Pace(speed=0.3))
+    assert min(asked) >= SPEED - 1e-6
+    assert motion.frames == pytest.approx(6 / 0.3 * FPS, abs=12)
+    steps = np.linalg.norm(np.diff(motion.root[:, [0, 2]], axis=0), axis=1) * FPS
+    assert np.median(steps) == pytest.approx(0.3, abs=0.02)
+
+
+@pytest.mark.parametrize(("share", "found"), [(0.9, 1.2), (1.1, 1.2), (0.5, 1.2 * 0.5 * MOST_HURRIED)])
+def test_who_goes_slower_or_faster_than_asked_is_played_in_time_within_limits(
+    share: float, found: float
+) -> None:
+    path = Path(np.array([[0, 0], [0, 12]], np.float32))
+    motion = walk(lambda frames, speed: towards_goal(frames, share * speed), STRIDE, path, Pace(speed=1.2))
+    steps = np.linalg.norm(np.diff(motion.root[:, [0, 2]], axis=0), axis=1) * FPS
+    assert np.median(steps) == pytest.approx(found, abs=0.01)
 
 
 def test_every_waypoint_of_a_path_with_corners_is_passed() -> None:

@@ -104,6 +104,16 @@ def test_a_goal_that_stands_still_is_reached_in_its_distance_at_the_speed_and_th
     assert roots(seen)[-1] == pytest.approx([goal.x, goal.z], abs=0.05)
 
 
+def test_goals_at_less_than_the_speed_of_walks_are_stepped_to() -> None:
+    def never(frames: np.ndarray, speed: np.ndarray) -> np.ndarray:
+        raise AssertionError("walked")
+
+    seen = list(islice(stream(FakeCharacterModels(never), Goal(0, 0), Goal(0, 6), speed=0.3), int((20 + 3) * FPS)))
+    root = np.concatenate([frame.root for frame in seen])
+    assert np.hypot(*(root[-1, [0, 2]] - [0, 6])) < 0.03
+    assert 6 / np.flatnonzero(root[:, 2] > 5.9)[0] * FPS == pytest.approx(0.3, abs=0.05)
+
+
 def test_a_turn_before_a_walk_takes_effect_at_its_landings() -> None:
     walker = stream(FakeCharacterModels(turns_gently), Goal(0, 0), Goal(0, -8))
     seen = list(islice(walker, 20))

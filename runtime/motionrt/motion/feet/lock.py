@@ -22,7 +22,8 @@ from motionrt.motion.skeleton import SMPL24
 
 BLEND_S = 0.2  # seconds over which a correction fades, where the next contact leaves that much time
 MAX_DROP = 0.05  # metres that the pelvis may sink for a foot that would not reach
-CLEARANCE = 0.02  # metres above the floor of a toe that swings by
+CLEARANCE = 0.03  # metres above the floor of a toe that swings by
+_QUICKENS = 1.25  # times the speed from which a toe swings by which it is faster when it keeps all of that
 MAX_SHIFT = 0.1  # metres that a toe is moved in a contact; one that travels twice as far slides or stands twice
 _DOWN = 0.025  # metres
 _CALMER = 0.25  # such contacts are looked for again with the speeds scaled by this
@@ -52,7 +53,7 @@ def lock_feet(
         blend_s: seconds over which corrections fade after and before a contact.
         max_drop: metres that the pelvis may sink so that a leg reaches.
         clearance: metres that a swinging toe keeps above the floor; a slow one keeps none, but is never below it.
-        swings_from: m/s above which a toe swings; all of the clearance is kept at twice that.
+        swings_from: m/s above which a toe swings; all of the clearance is kept at 2.25 times that.
 
     Raises:
         InvalidInputError: another skeleton, or contacts of another shape.
@@ -95,7 +96,7 @@ def with_feet_moved(
 
 def lift(height: Array, speed: Array, clearance: float = CLEARANCE, swings_from: float = LOOSE_SPEED) -> Array:
     """Metres to raise toes ``height`` metres above the floor that move at ``speed`` m/s: not negative, and smooth."""
-    swings = np.clip((speed - swings_from) / swings_from, 0, 1)
+    swings = np.clip((speed - swings_from) / (_QUICKENS * swings_from), 0, 1)
     swings = clearance * swings**2 * (3 - 2 * swings)
     short = swings - height
     return np.asarray((short + np.sqrt(short**2 + (swings / 2) ** 2)) / 2)
