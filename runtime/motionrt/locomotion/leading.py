@@ -73,14 +73,19 @@ def led(goals: Array, frames: Array) -> npt.NDArray[np.float64]:
     return np.where(np.abs(off)[:, None] > SHARPEST, np.column_stack([near, 2 * turned - facing]), goals)
 
 
-def helped(goals: Array, history: Array) -> npt.NDArray[np.float64]:
+def helped(goals: Array, history: Array, most: float | Array = MOST) -> npt.NDArray[np.float64]:
     """Histories ``(B, 30, 219)`` turned a little about where each walker is, towards a goal that lies aside.
 
     A walk that is bent so stays a walk; what its standing feet turn is for the foot lock, as in the bent walks of the
     training data. Some gaits turn slowly by themselves.
+
+    Args:
+        goals: ``(B, 3)`` x, z and heading of each.
+        history: the last second of each.
+        most: radians a frame, one for all or ``(B,)``.
     """
     place, off = history[:, -1, [216, 218]], _aside(goals, history[:, -1])
-    turn = np.sign(off) * np.minimum(np.maximum(np.abs(off) - FREE, 0.0) * HELP, MOST)
+    turn = np.sign(off) * np.minimum(np.maximum(np.abs(off) - FREE, 0.0) * HELP * np.asarray(most) / MOST, most)
     about = np.column_stack([place, np.zeros(len(place))])
     turned = frames_from_goal(frames_to_goal(history, about), np.column_stack([place, turn]))
     return np.where((turn != 0.0)[:, None, None], turned, history)

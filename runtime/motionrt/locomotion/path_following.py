@@ -10,7 +10,8 @@ import numpy.typing as npt
 
 from motionrt.errors import InvalidInputError, WalkError
 from motionrt.locomotion.crowd import FPS, SPEED, Crowd, NextFrame, history_of, to_motion
-from motionrt.locomotion.leading import MOST_HURRIED, helped, led, slowed
+from motionrt.locomotion.gliding import Gait
+from motionrt.locomotion.leading import MOST, MOST_HURRIED, helped, led, slowed
 from motionrt.locomotion.path import Path
 from motionrt.locomotion.waypoints import RADIUS, WaypointTargets
 from motionrt.motion import Motion
@@ -18,8 +19,10 @@ from motionrt.motion.rotations import wrapped
 from motionrt.untrusted.arguments import real
 from motionrt.untrusted.words import shown
 
+WALKS_TO = 1.5  # m/s: feet of who runs glide more, and that is no reason to change the gait
 SPACING = 1.0  # metres between waypoints
 ARRIVED = 0.1  # metres from the end of a path that are as good as there
+CIRCLES_S, TURNED = 1.0, 1.5  # such seconds after which who circles is helped more, and how much
 PATIENCE_S = 8.0  # seconds without coming nearer to a waypoint after which a character is stuck
 BEHIND, MISSED = 1.3, 2.0  # radians aside that are behind, and radii from a waypoint that are missed by little
 LEAVING = 0.05  # metres farther than before that somebody is who leaves
@@ -102,11 +105,14 @@ def walk_together(
             walking = [trip for trip, stay in zip(walking, stays, strict=True) if stay]
             continue
         aims = np.stack([trip.goal for trip in walking])
-        crowd.history = helped(aims, crowd.history)
+        crowd.history = helped(aims, crowd.history, np.array([trip.help for trip in walking]))
         goals = led(aims, crowd.history[:, -1])
         speeds = slowed(aims, crowd.history[:, -1], max(pace.speed, SPEED))
         for trip, frame in zip(walking, crowd.step(goals, speeds), strict=True):
-            trip.frames.append(frame)
+            trip.gait.show(frame)
+        if pace.speed <= WALKS_TO:
+            revived = [trip.gait.revived(seen) for trip, seen in zip(walking, crowd.history, strict=True)]
+            crowd.history = np.stack(revived)
         _tell(progress, trips)
     return [in_time(trip.walked(), pace.speed) for trip in trips]
 
@@ -132,9 +138,14 @@ class _Trip:
         self.pace, self.path = pace, path
         self.routes = WaypointTargets([np.column_stack([marks.positions, marks.headings])], pace.radius)
         self.end = path.at(path.length)
-        self.frames: list[npt.NDArray[np.float64]] = []
+        self.gait = Gait()
         self.goal = self.routes.goals(place[None])[0]
         self._best, self._best_frame, self._mark = np.inf, 0, -1
+
+    @property
+    def frames(self) -> list[npt.NDArray[np.float64]]:
+        """What was walked."""
+        return self.gait.frames
 
     def goes_on(self, xz: npt.NDArray[np.float64]) -> bool:
         """Whether there is more to walk from here; picks the next goal."""
@@ -169,6 +180,12 @@ class _Trip:
         x, z = xz - self.goal[:2]
         passed = x * np.sin(self.goal[2]) + z * np.cos(self.goal[2]) > 0
         return bool(passed and away < self.pace.radius * 3 and len(self.frames) > self._best_frame)
+
+    @property
+    def help(self) -> float:
+        """Radians a frame by which the walk may be bent: more for who circles round a waypoint."""
+        idle = (len(self.frames) - self._best_frame) / FPS
+        return MOST * (1.0 + min(1.0, max(0.0, idle - CIRCLES_S)) * (TURNED - 1.0))
 
     def _check_progress(self, away: float, xz: npt.NDArray[np.float64]) -> None:
         if len(self.frames) - self._best_frame > PATIENCE_S * FPS:

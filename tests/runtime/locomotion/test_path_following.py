@@ -45,9 +45,7 @@ def test_who_shall_be_slower_than_people_walk_walks_all_the_same_and_takes_longe
 
 
 @pytest.mark.parametrize(("share", "found"), [(0.9, 1.2), (1.1, 1.2), (0.5, 1.2 * 0.5 * MOST_HURRIED)])
-def test_who_goes_slower_or_faster_than_asked_is_played_in_time_within_limits(
-    share: float, found: float
-) -> None:
+def test_who_goes_slower_or_faster_than_asked_is_played_in_time_within_limits(share: float, found: float) -> None:
     path = Path(np.array([[0, 0], [0, 12]], np.float32))
     motion = walk(lambda frames, speed: towards_goal(frames, share * speed), STRIDE, path, Pace(speed=1.2))
     steps = np.linalg.norm(np.diff(motion.root[:, [0, 2]], axis=0), axis=1) * FPS

@@ -226,7 +226,7 @@ def test_a_slip_above_the_steps_is_told_with_its_line(text: str, folder: FilePat
 
 
 def test_a_script_that_is_no_text_or_not_there_is_told(folder: FilePath) -> None:
-    with pytest.raises(ScriptError, match=r"gone\.yaml: cannot be read"):
+    with pytest.raises(ScriptError, match=r"gone\.yaml: there is no such file"):
         Script.read(folder / "gone.yaml")
     (folder / "latin.yaml").write_bytes("steps: [{do: 'grüß'}]".encode("latin-1"))
     with pytest.raises(ScriptError, match="is not UTF-8 text"):
