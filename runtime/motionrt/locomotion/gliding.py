@@ -1,4 +1,4 @@
-"""A walk whose feet begin to glide goes on as it walked before; networks fall into gliding now and then, and stay there."""
+"""A walk whose feet begin to glide goes on as it walked before: networks fall into gliding, and stay there."""
 
 from __future__ import annotations
 
