@@ -2,7 +2,7 @@
 
     python examples/make_robot.py -o examples/robot.glb
 
-It is 1.2 m tall, with short legs, large feet and a large head, which shows what retargeting does with other builds.
+It is 1.2 m tall, with short legs, large feet and a square head, which shows what retargeting does with other builds.
 """
 
 from __future__ import annotations
@@ -35,14 +35,14 @@ SIDE = [
 BOXES = [
     ("Hips", (0, 0.50, 0), (0.12, 0.055, 0.085), GREY), ("Spine1", (0, 0.60, 0), (0.075, 0.055, 0.06), DARK),
     ("Spine2", (0, 0.735, 0), (0.145, 0.09, 0.105), WHITE), ("Spine2", (0, 0.75, 0.105), (0.05, 0.035, 0.012), TEAL),
-    ("Neck", (0, 0.845, 0), (0.04, 0.03, 0.04), DARK), ("Head", (0, 1.02, 0.01), (0.16, 0.135, 0.14), WHITE),
-    ("Head", (0, 1.025, 0.148), (0.125, 0.08, 0.014), DARK),
-    ("Head", (0.055, 1.03, 0.163), (0.022, 0.034, 0.006), TEAL),
-    ("Head", (-0.055, 1.03, 0.163), (0.022, 0.034, 0.006), TEAL), ("Head", (0, 1.19, 0), (0.012, 0.04, 0.012), GREY),
-    ("Head", (0, 1.24, 0), (0.028, 0.028, 0.028), ORANGE),
+    ("Neck", (0, 0.845, 0), (0.04, 0.03, 0.04), DARK), ("Head", (0, 0.985, 0.01), (0.1, 0.1, 0.1), WHITE),
+    ("Head", (0, 0.99, 0.109), (0.08, 0.062, 0.012), DARK),
+    ("Head", (0.036, 0.994, 0.122), (0.016, 0.026, 0.005), TEAL),
+    ("Head", (-0.036, 0.994, 0.122), (0.016, 0.026, 0.005), TEAL), ("Head", (0, 1.115, 0), (0.01, 0.035, 0.01), GREY),
+    ("Head", (0, 1.16, 0), (0.025, 0.025, 0.025), ORANGE),
 ]  # fmt: skip
 SIDE_BOXES = [
-    ("Head", (0.17, 1.02, 0), (0.02, 0.055, 0.055), ORANGE), ("Arm", (0.155, 0.79, 0), (0.05, 0.06, 0.06), ORANGE),
+    ("Head", (0.108, 0.985, 0), (0.014, 0.042, 0.042), ORANGE), ("Arm", (0.155, 0.79, 0), (0.05, 0.06, 0.06), ORANGE),
     ("Arm", (0.25, 0.79, 0), (0.07, 0.035, 0.035), GREY), ("ForeArm", (0.43, 0.79, 0), (0.095, 0.052, 0.052), WHITE),
     ("Hand", (0.575, 0.79, 0.0), (0.055, 0.026, 0.045), DARK),
     ("Hand", (0.555, 0.79, 0.058), (0.028, 0.02, 0.018), DARK),

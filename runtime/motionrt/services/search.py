@@ -201,10 +201,11 @@ class Search(Service):
             captions: texts to choose from, by default a list of everyday actions that comes with motionrt. A
                 list is embedded once and remembered.
         """
+        from motionrt.motion.attributes import measure
         from motionrt.retrieval import describe, motion_features
 
-        loaded = _loaded(motion)
-        return describe(motion_features(loaded), loaded.duration, self.captions(captions), self.model, k)
+        loaded, chosen = _loaded(motion), self.captions(captions)
+        return describe(motion_features(loaded), loaded.duration, chosen, self.model, k, measure(loaded))
 
     def captions(self, texts: Sequence[str] | None = None) -> EmbeddedCaptions:
         """A list of captions, by default the one that comes with motionrt, with embeddings; remembered."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +12,9 @@ from motions import standing, walking
 
 from motionrt.errors import InvalidInputError
 from motionrt.motion import Motion
+from motionrt.motion.attributes import measure
 from motionrt.retrieval import EmbeddedCaptions, checked_captions, describe, motion_features, read_captions
+from motionrt.retrieval.describing import SWING, swing_penalties
 
 
 def test_the_caption_nearest_to_any_window_comes_first_with_that_window() -> None:
@@ -67,3 +70,21 @@ def test_embedded_captions_that_cannot_be_read_are_none(content: bytes | None, t
     if content is not None:
         path.write_bytes(content)
     assert EmbeddedCaptions.read(path, "f" * 64) is None
+
+
+def test_a_fast_foot_kicks_and_a_slow_one_is_lifted() -> None:
+    texts = (
+        "kick high",
+        "lift the left leg",
+        "raise the right arm",
+        "walk",
+        "raise the left knee",
+        "lift a box",
+    )
+    slow = measure(walking(40))
+    fast = replace(slow, left_foot_peak=5.5)
+    even = replace(slow, left_foot_peak=3.5, right_foot_peak=1.0)
+    assert slow.left_foot_peak < 3.0
+    np.testing.assert_allclose(swing_penalties(texts, slow), [SWING, 0, 0, 0, 0, 0])
+    np.testing.assert_allclose(swing_penalties(texts, fast), [0, SWING, 0, 0, SWING, 0])
+    assert not swing_penalties(texts, even).any()
