@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import pickle
 import re
 import xml.etree.ElementTree as ET
+from copy import copy
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 from fake_embedder import open_fake
 from motions import standing, walking
+from tiny_models import TINY
 
 from motionrt import Runtime
 from motionrt.locomotion.path import Path as WalkPath
@@ -61,14 +64,32 @@ def test_a_runtime_says_which_models_it_has_and_which_are_open() -> None:
     assert repr(Runtime()) == "Runtime(the models that come with motionrt; open: none yet)"
 
 
+def test_a_runtime_shows_its_models_as_a_table() -> None:
+    shown = Runtime(TINY)._repr_html_()
+    assert shown.count("<tr>") > 3
+    assert "tmr_motion" in shown
+    assert "MB" in shown
+
+
+def test_a_hit_is_copied_and_pickled_without_the_gallery_that_it_was_found_in(tmp_path: Path) -> None:
+    walking(60).save(tmp_path / "walk.bvh")
+    gallery = build_gallery(tmp_path, open_fake).gallery
+    hit = find(gallery, "walk", open_fake().embed_text(["walk"])[0], Search(anyway=True))[0]
+    for twin in (pickle.loads(pickle.dumps(hit)), copy(hit), replace(hit)):
+        assert twin == hit
+        assert "<svg" not in twin._repr_html_()
+        assert "walk.bvh" in twin._repr_html_()
+
+
 def test_hits_and_galleries_show_pictures_and_survive_files_that_are_gone(tmp_path: Path) -> None:
     walking(60).save(tmp_path / "<b>walk.bvh")
     gallery = build_gallery(tmp_path, open_fake).gallery
     hits = find(gallery, "walk", open_fake().embed_text(["walk"])[0], Search(anyway=True))
     assert re.fullmatch(r"Hit\(1, -?[\d.]+, '<b>walk.bvh', 0.0-3.0 s\)", repr(hits[0]))
-    for shown in (gallery._repr_html_(), hits._repr_html_()):
+    for shown in (gallery._repr_html_(), hits._repr_html_(), hits[0]._repr_html_()):
         assert "<svg" in shown
         assert "<b>" not in shown
     (tmp_path / "<b>walk.bvh").unlink()
     assert "<svg" not in hits._repr_html_()
+    assert "<svg" not in hits[0]._repr_html_()
     assert "<table>" in Hits()._repr_html_()

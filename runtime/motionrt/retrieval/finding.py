@@ -43,7 +43,7 @@ class Hits(list[Hit]):
         unknown_words: tuple[str, ...] = (),
         gallery: Gallery | None = None,
     ) -> None:
-        super().__init__(hits)
+        super().__init__(hits if gallery is None else (hit.found_in(gallery) for hit in hits))
         self.notice = notice
         self.unknown_words = unknown_words
         self.gallery = gallery

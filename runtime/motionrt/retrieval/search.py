@@ -27,6 +27,14 @@ CODED_LATE_FROM = 20_000  # from here the copy takes more than 20 ms
 SELECTIVE = 64  # where fewer than one in so many vectors may be found, those are compared alone
 
 Mask = npt.NDArray[np.bool_]
+_FOUND_IN = "_found_in"
+
+
+class Sketches(Protocol):
+    """What can draw a hit: a gallery."""
+
+    def sketch(self, hit: Hit | str) -> str:
+        """SVG of a hit, under its name."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -58,6 +66,29 @@ class Hit:
     def __repr__(self) -> str:
         text = f", {self.text!r}" if self.text else ""
         return f"Hit({self.rank}, {self.score:.3f}, {self.id!r}, {self.start_s:.1f}-{self.end_s:.1f} s{text})"
+
+    def found_in(self, gallery: Sketches) -> Hit:
+        """The hit, which knows from now on where it was found, so that notebooks can draw it; copies do not."""
+        object.__setattr__(self, _FOUND_IN, gallery)
+        return self
+
+    def __getstate__(self) -> dict[str, object]:
+        return {name: value for name, value in vars(self).items() if name != _FOUND_IN}
+
+    def _repr_html_(self) -> str:
+        """A row with what is known of it, and a strip of poses where its gallery has the motion, for notebooks."""
+        from motionrt.motion.notebook import page, table
+
+        facts = [
+            f"{self.rank}",
+            f"{self.score:.3f}",
+            f"{self.start_s:.1f}-{self.end_s:.1f} s",
+            self.id,
+            self.text or "",
+        ]
+        gallery: Sketches | None = getattr(self, _FOUND_IN, None)
+        drawn = [] if gallery is None else [gallery.sketch(self)]
+        return page("", table(("rank", "score", "span", "clip", "text"), [facts]), *drawn)
 
 
 class VectorIndex(Protocol):

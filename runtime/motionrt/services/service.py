@@ -63,6 +63,23 @@ class Service:
         opened = self.sessions.opened if "sessions" in vars(self) else []
         return f"{type(self).__name__}({what}; open: {', '.join(opened) or 'none yet'})"
 
+    def _repr_html_(self) -> str:
+        """A table of the models that come with it: their sizes, licences, and whether they are open; for notebooks."""
+        from motionrt.motion.notebook import page, table
+
+        rows = [
+            [
+                model.name,
+                f"{variant.bytes / 1e6:.1f} MB",
+                model.licence,
+                "yes" if model.name in self.sessions.opened else "",
+            ]
+            for model in self.sessions.manifest.models.values()
+            for variant in model.variants.values()
+            if variant.shipped
+        ]
+        return page(repr(self), table(("model", "size", "licence", "open"), rows))
+
     @cached_property
     def sessions(self) -> Sessions:
         """All models of the manifest; each opens when it is first run."""
