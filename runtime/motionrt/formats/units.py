@@ -15,8 +15,11 @@ from motionrt.untrusted.words import shown
 UNITS = {"m": 1.0, "cm": 100.0, "mm": 1000.0, "in": 1 / 0.0254}
 """Names of units and how many of them are a metre."""
 
-_USUAL = (1.0, 0.1, 0.0254, 0.01, 0.001, 0.3048, 2.54 / 45, 0.056444)
-"""Metres per unit: metres, decimetres, inches, centimetres, millimetres, feet, and CMU's 2.54/45 m."""
+_METRIC, _OTHERS = (1.0, 0.01, 0.001), (0.1, 0.0254, 0.3048, 2.54 / 45, 0.056444)
+"""Metres per unit: metres, centimetres, millimetres; decimetres, inches, feet, and CMU's 2.54/45 m."""
+
+_RARER = 0.5
+"""How much nearer, as a logarithm, one of the others has to be: a child in centimetres is as tall as an adult in 1/50 m."""
 
 
 def units_per_metre(units: str) -> float:
@@ -27,8 +30,10 @@ def units_per_metre(units: str) -> float:
 
 
 def metres_per_unit(units_per_metre: float) -> float:
-    """The usual unit nearest to that of a rig with so many units per metre of ``smpl24``."""
-    return min(_USUAL, key=lambda unit: abs(np.log(unit * units_per_metre)))
+    """The usual unit nearest to that of a rig with so many units per metre of ``smpl24``; metric ones first."""
+    off = {unit: abs(float(np.log(unit * units_per_metre))) for unit in _METRIC}
+    off |= {unit: abs(float(np.log(unit * units_per_metre))) + _RARER for unit in _OTHERS}
+    return min(off, key=off.__getitem__)
 
 
 def to_metres(motion: RigMotion) -> RigClip:

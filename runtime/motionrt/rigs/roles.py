@@ -86,9 +86,9 @@ def _given_roles(tree: RigTree, mapping: Mapping[str, str]) -> dict[str, int]:
     for role, name in mapping.items():
         if role not in SMPL24.names:
             near = get_close_matches(role, SMPL24.names, n=1)
-            meant = f"; did you mean {near[0]}?" if near else ""
+            meant = f" (did you mean {near[0]}?)" if near else ""
             known = ", ".join(SMPL24.names)
-            raise RigError(f"the mapping names '{role}', no joint of smpl24{meant} The joints are: {known}")
+            raise RigError(f"the mapping names '{role}', no joint of smpl24{meant}; there are: {known}")
         found = [joint for joint, other in enumerate(tree.names) if other == name]
         if len(found) != 1:
             near = get_close_matches(name, tree.names, n=5, cutoff=0.3) or list(tree.names)

@@ -139,7 +139,7 @@ def test_the_animation_has_the_name_of_the_file_and_every_joint(tmp_path: Path) 
 
 def test_options_of_bvh_are_refused(tmp_path: Path) -> None:
     for options in ({"units": "cm"}, {"t_pose": True}):
-        with pytest.raises(InvalidInputError, match=r"are for \.bvh"):
+        with pytest.raises(InvalidInputError, match=r"are for a \.bvh"):
             standing().save(tmp_path / "clip.glb", **options)
     assert not list(tmp_path.iterdir())
 

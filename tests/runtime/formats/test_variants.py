@@ -14,13 +14,14 @@ from acclaim_files import Acclaim
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from limb_check import BONES, furthest, limbs, places_of
+from motions import walking
 from retarget_rigs import Z_UP, named, person, renamed, rig
 from rig_files import ROTATION_ORDERS, bvh_places, write_bvh_rig, write_glb_rig
 from scipy.spatial.transform import Rotation
 
 from motionrt.errors import RigError
-from motionrt.formats import load_motion
-from motionrt.motion import SMPL24
+from motionrt.formats import load_motion, motion_file_info
+from motionrt.motion import SMPL24, Motion, Skeleton
 from motionrt.rigs import RigClip
 
 LIMIT = 3.0  # degrees
@@ -181,3 +182,17 @@ def test_a_glb_means_the_same_whatever_its_joints(variant: Variant) -> None:
 @settings(max_examples=15, deadline=None)
 def test_a_recording_of_acclaim_means_the_same_whatever_its_axes_and_units(variant: Variant) -> None:
     check(variant, ".amc")
+
+
+@pytest.mark.parametrize("height", [0.85, 1.1, 1.65, 1.95])
+@pytest.mark.parametrize(("units", "metres"), [("cm", 0.01), ("m", 1.0), ("mm", 0.001)])
+def test_a_child_in_a_file_is_not_taken_for_an_adult_in_inches(
+    tmp_path: Path, height: float, units: str, metres: float
+) -> None:
+    walk = walking(30)
+    size = height / 1.65
+    small = Skeleton(SMPL24.names, SMPL24.parents, (SMPL24.offsets * size).astype(np.float32))
+    file = Motion(walk.rotations, walk.root * size, walk.fps, small).save(tmp_path / "child.bvh", units=units)
+    info = motion_file_info(file)
+    assert info.metres_per_unit == metres
+    assert info.height == pytest.approx(1.53 * size, rel=0.03)

@@ -88,7 +88,7 @@ def test_a_mapping_to_an_unknown_rig_joint_lists_near_names() -> None:
 
 
 def test_a_mapping_of_an_unknown_role_lists_the_roles() -> None:
-    with pytest.raises(RigError, match=r"names 'LeftKnee', no joint of smpl24.* The joints are: pelvis, left_hip"):
+    with pytest.raises(RigError, match=r"names 'LeftKnee', no joint of smpl24.*; there are: pelvis, left_hip"):
         to_smpl24(rig(person(4), NAMES), mapping={"LeftKnee": "L_knee"})
 
 
