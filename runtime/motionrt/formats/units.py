@@ -19,7 +19,7 @@ _METRIC, _OTHERS = (1.0, 0.01, 0.001), (0.1, 0.0254, 0.3048, 2.54 / 45, 0.056444
 """Metres per unit: metres, centimetres, millimetres; decimetres, inches, feet, and CMU's 2.54/45 m."""
 
 _RARER = 0.5
-"""How much nearer, as a logarithm, one of the others has to be: a child in centimetres is as tall as an adult in 1/50 m."""
+"""How much nearer, as a logarithm, one of the others has to be: a child in cm is as tall as an adult in 1/50 m."""
 
 
 def units_per_metre(units: str) -> float:

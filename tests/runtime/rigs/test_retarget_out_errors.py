@@ -151,7 +151,7 @@ def test_only_characters_are_targets_and_only_two_formats_are_written(tmp_path: 
     moved = WALK.retarget_to(glb(character("mixamo")).save(tmp_path / "rig.glb"))
     for name, options, message in (
         ("out.npz", {}, r"cannot be written with a motion of a rig"),
-        ("out.glb", {"units": "cm"}, r"are for \.bvh"),
+        ("out.glb", {"units": "cm"}, r"are for a \.bvh"),
         ("out.bvh", {"units": "miles"}, "units must be one of"),
     ):
         with pytest.raises(InvalidInputError, match=message):
