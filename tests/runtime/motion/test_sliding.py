@@ -66,3 +66,21 @@ def test_another_skeleton_is_refused() -> None:
     other = replace(standing(5), skeleton=Skeleton(SMPL24.names, SMPL24.parents, SMPL24.offsets * 2))
     with pytest.raises(InvalidInputError, match="smpl24"):
         step_where_sliding(other)
+
+
+def test_who_walks_with_neither_foot_standing_takes_steps() -> None:
+    glides = gliding(1.2)  # too fast for a contact
+    assert step_where_sliding(glides) is glides
+    steps = lock_feet(step_where_sliding(glides, walking=True))
+    assert foot_skate(steps.positions()) < 0.3 * foot_skate(glides.positions())
+    aloft = steps.positions()[:, TOES, 1] > 0.3 * LIFT
+    assert not aloft.all(axis=1).any()
+
+
+def test_who_leaps_and_runs_is_left_alone() -> None:
+    leaps = gliding(1.2)
+    up = np.abs(np.sin(np.arange(FRAMES) / 5))[:, None] * np.array([0, 0.3, 0], np.float32)
+    leaping = replace(leaps, root=(leaps.root + up).astype(np.float32))
+    assert step_where_sliding(leaping, walking=True) is leaping
+    runs = gliding(3.0)
+    assert step_where_sliding(runs, walking=True) is runs
