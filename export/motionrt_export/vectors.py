@@ -41,7 +41,7 @@ MODELS = ("tmr_text", "walknet", "motion_denoiser")
 GOALS = ((0, (2.0, 6.0, 0.4)), (220, (-5.0, 9.0, -1.2)), (420, (-9.0, 2.0, -2.4)))
 """From which frame on the walk goes where: x, z, heading."""
 FRAMES = 600
-MOTIONS = (("a person waves with the right hand", 3.0, 1), ("walks in a circle to the left and sits down", 5.0, 7))
+MOTIONS = (("a person waves with the right hand", 3.0, 1), ("walks in a circle to the left", 5.0, 7))
 EMBEDDED = 16
 _LETTERS = (
     *("é", "İ", "ß", "Σ", "ς", "ﬁ", "Ǆ", "①", "ʼ", "中", "한", "😀", "–", "’", "[CLS]", "[mask]", "\x00", "\t"),

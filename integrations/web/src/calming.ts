@@ -1,5 +1,6 @@
 // Limbs do what a text says: who stands still is still, one arm waves where one is named, punches reach out.
 import { columnOf, FPS, WIDTH } from "./ego77";
+import { gesturesOf } from "./gestures";
 import { clamp, length } from "./rotations";
 import { joint, OFFSETS, PARTS } from "./skeleton";
 import type { Said } from "./words";
@@ -20,11 +21,19 @@ export function calm(rows: Float32Array, said: Said): boolean[] {
     for (let i = 0; i < rows.length; i += WIDTH) for (let k = 0; k < 3; k++) rows[i + k] *= part;
     return parts.map(() => true);
   }
-  if (said.arm === "left" || said.arm === "right") favour(rows, parts, said.arm);
+  const side = handOf(said);
+  if (side) favour(rows, parts, side);
   if (said.action === "punch" || said.action === "throw")
     for (const side of ["left", "right"])
       if ((!said.arm || said.arm === "both" || said.arm === side) && thrust(rows, side)) parts[PARTS.indexOf(`${side} arm`)] = true;
   return parts;
+}
+
+/** The one hand that does what a text says. */
+function handOf(said: Said): string | null {
+  if (said.arm === "left" || said.arm === "right") return said.arm;
+  const hands = said.arm ? [] : gesturesOf(said).hands;
+  return hands.length === 1 ? hands[0][0] : null;
 }
 
 /** Stretch an arm where it reaches out farthest. */

@@ -1,9 +1,11 @@
 // Text to motion by diffusion in motion space (motionrt.synthesis): the solver, the canvas, and the motion of it.
 import { type Held, over, type Piece } from "./canvas";
+import { clausesOf } from "./clauses";
 import data from "./data/words.json";
 import { checkedNumber, InvalidInputError } from "./errors";
 import { between, decode, FPS, smoothed, WIDTH } from "./ego77";
 import { lockFeet } from "./feet";
+import { standing } from "./gestures";
 import { uprightGround } from "./ground";
 import { withHeads } from "./heads";
 import { Motion } from "./motion";
@@ -14,12 +16,14 @@ import { JOINTS, PARTS } from "./skeleton";
 import { stepWhereSliding } from "./sliding";
 import { kept, planned, steered } from "./steering";
 import type { TextEncoder, TokenFeatures } from "./text";
+import { networkText } from "./wording";
 import { parseQuery, slotsOf, targetsOf } from "./words";
 
 const READ = 24; // tokens of a text that the network has learnt to read
 const [HIGHEST, LOWEST, BEND] = [60, 0.15, 7]; // noise levels (Karras et al. 2022, eq. 5)
 const [POSE_GUIDANCE, TURN_GUIDANCE] = [5, 1.3];
 const [LATE, GUIDED] = [2.5, 2]; // noise levels below which the way is corrected, and down to which texts are guided
+const SHORTEST_ACT_S = 1; // of acts of a text that follow one another; with less time they are one
 const [NETWORK, OVERLAP] = [200, 5]; // frames at 20 fps: that the network sees, over which texts pass into each other
 const SWINGS_FROM = 0.4; // m/s: a generated foot that swings drags more than a recorded one
 
@@ -48,6 +52,15 @@ export interface Line {
   seconds: number;
 }
 
+/** The acts of a text that follow one another, each with its share of the time; one line where there is one. */
+function actsOf(text: string, seconds: number, whole: boolean): Line[] {
+  const acts = whole ? [text] : clausesOf(text);
+  const share = seconds / acts.length;
+  if (acts.length < 2 || share < SHORTEST_ACT_S) return [{ text, seconds }];
+  const times = [...acts.map((_, k) => rounded(10 * share * k) / 10), seconds];
+  return acts.map((act, k) => ({ text: act, seconds: times[k + 1] - times[k] }));
+}
+
 /** Falling noise levels of so many steps. */
 export function noiseLevels(steps: number): number[] {
   const [high, low] = [HIGHEST ** (1 / BEND), LOWEST ** (1 / BEND)];
@@ -61,7 +74,7 @@ export class Generator {
   /** A motion of a text, or of several one after another: 30 fps, from above the origin, facing +Z, feet on the floor. */
   async generate(what: string | Line[], sampling: Sampling = {}): Promise<Motion> {
     const single = typeof what === "string";
-    const lines = single ? [{ text: what, seconds: checkedNumber(sampling.seconds ?? 4, "seconds", 0.5, 10) }] : what;
+    const lines = single ? actsOf(what, checkedNumber(sampling.seconds ?? 4, "seconds", 0.5, 10), Boolean(sampling.features)) : what;
     if (!lines.length) throw new InvalidInputError("a timeline needs at least one text");
     if (!single) for (const line of lines) checkedNumber(line.seconds, "seconds of a line", 0.5, 9.5);
     const times = timesOf(lines);
@@ -83,8 +96,8 @@ export class Generator {
     weights.forEach((weight, i) => weight.forEach((value, f) => (total[spans[i][0] + f] += value)));
     const pieces: Piece[] = [];
     for (const [i, line] of lines.entries()) {
-      const said = parseQuery(line.text);
-      const { tokens, features } = given ?? (await this.text.features(line.text));
+      const said = standing(parseQuery(line.text));
+      const { tokens, features } = given ?? (await this.text.features(networkText(line.text)));
       const read = Math.min(tokens, READ);
       const words = { features: { tokens: read, features: features.slice(0, read * 384) }, slots: slotsOf(said), ...targetsOf(said, line.seconds), said };
       pieces.push({ words, first: spans[i][0], weight: weights[i].map((value, f) => value / total[spans[i][0] + f]) });

@@ -12,6 +12,9 @@ const [BOW, BOW_AT, BOW_S] = [0.95, 0.45, 1]; // radians that a trunk bows, when
 const [STEP_HZ, STEP_UP, STEP_AHEAD] = [0.9, 0.3, 0.12]; // pairs of marching steps a second, and metres that feet are lifted
 const [HELD_UP, HELD_AHEAD] = [0.35, -0.1]; // metres that a foot is held up
 const [HIGH, LOW, LOW_KNEE, FRONT] = [0.62, 0.5, 0.12, 0.33]; // pelvis heights between which knees go down; knee; foot in front
+const [LIES_HIGH, LIES_LOW, FLAT, ON_FLOOR] = [0.34, 0.18, 1.5, 0.05]; // pelvis heights between which a trunk lies down; its lean; its joints, at least
+const UPRIGHT = 0.22; // radians that the trunk of somebody who stands and gestures leans, at most
+const [UP_FROM, UP_TO, BENT] = [0.6, 0.8, 0.4]; // pelvis heights between which a trunk that will lie is kept up; its lean then, at most
 const STANDS = 0.09; // metres that the ankle of a standing foot is above the floor
 const ELBOW: Vec3 = [0.4, -0.9, -0.3]; // out, up, ahead: where elbows point where nothing else is seen
 const KNEE: Vec3 = [0.1, 0, 1];
@@ -50,6 +53,10 @@ export function gestured(features: Float32Array, said: Said): Held {
   const found = gesturesOf(said);
   if (found.bows) {
     const led = bow(rows);
+    for (const part of ["torso", "left arm", "right arm"]) lead(part, led);
+  }
+  if (found.lies || found.stands) {
+    const led = found.lies ? lying(rows) : upright(rows);
     for (const part of ["torso", "left arm", "right arm"]) lead(part, led);
   }
   for (const [side, gesture] of found.hands) lead(`${side} arm`, hand(rows, side, gesture, said));
@@ -127,6 +134,43 @@ function bow(rows: Rows): boolean[] {
     for (const name of TRUNK) {
       const [x, y, z] = minus(rows.at(f, name), pelvis);
       rows.put(f, name, add(pelvis, [x, c * y - s * z, s * y + c * z]));
+    }
+    return true;
+  });
+}
+
+/** Bring a trunk upright that leans too far; in place. The frames of it. */
+function upright(rows: Rows): boolean[] {
+  return Array.from({ length: rows.frames }, (_, f) => {
+    const pelvis: Vec3 = [0, rows.height(f), 0];
+    const [, up, ahead] = minus(rows.at(f, "neck"), pelvis);
+    const lean = Math.atan2(ahead, up);
+    const off = clamp(lean, -UPRIGHT, UPRIGHT) - lean;
+    if (Math.abs(off) <= 1e-3) return false;
+    const [c, s] = [Math.cos(off), Math.sin(off)];
+    for (const name of TRUNK) {
+      const [x, y, z] = minus(rows.at(f, name), pelvis);
+      rows.put(f, name, add(pelvis, [x, c * y - s * z, s * y + c * z]));
+    }
+    return true;
+  });
+}
+
+/** Lay the trunk on the floor while the pelvis is there, to the side that it leans to, and keep it up before; in place. The frames of it. */
+function lying(rows: Rows): boolean[] {
+  const weights = Array.from({ length: rows.frames }, (_, f) => smooth((LIES_HIGH - rows.height(f)) / (LIES_HIGH - LIES_LOW)));
+  const trunks = weights.map((_, f) => minus(rows.at(f, "neck"), [0, rows.height(f), 0]));
+  const ahead = weights.reduce((sum, weight, f) => sum + weight * trunks[f][2], 0) > 0 ? 1 : -1;
+  return weights.map((weight, f) => {
+    const up = smooth((rows.height(f) - UP_FROM) / (UP_TO - UP_FROM));
+    if (weight + up <= 0) return false;
+    const lean = Math.atan2(trunks[f][2], trunks[f][1]);
+    const off = weight * (ahead * lean < FLAT ? ahead * FLAT - lean : 0) + up * (clamp(lean, -BENT, BENT) - lean);
+    const [c, s, pelvis] = [Math.cos(off), Math.sin(off), rows.height(f)];
+    for (const name of TRUNK) {
+      const [x, y, z] = minus(rows.at(f, name), [0, pelvis, 0]);
+      const high = pelvis + c * y - s * z;
+      rows.put(f, name, [x, high + weight * (Math.max(high, ON_FLOOR) - high), s * y + c * z]);
     }
     return true;
   });

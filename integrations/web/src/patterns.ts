@@ -45,6 +45,13 @@ export function has(text: string, pattern: string): boolean {
 
 /** The text with a mark in place of what matches. */
 export const without = (text: string, patterns: string[]): string => patterns.reduce((rest, pattern) => rest.replace(compiled(pattern, rest), "_"), text);
+/** The text with other words in place of what matches; `$1` stands for what the first brackets hold. */
+export const replaced = (text: string, pattern: string, instead: string): string => text.replace(compiled(pattern, text), instead);
+/** What lies between the matches. */
+export const parted = (text: string, pattern: string): string[] => {
+  const found = matches(text, pattern);
+  return [...found, { start: text.length }].map(({ start }, i) => text.slice(i ? found[i - 1].end : 0, start));
+};
 /** The name of the first pattern of a table that the text holds. */
 export const first = (text: string, table: Table): string | null => table.find(([, pattern]) => has(text, pattern))?.[0] ?? null;
 /** The sides that are named in places where the patterns look. */

@@ -4,22 +4,25 @@ import { type Held, nothing, over, overlaid, type Piece, spans } from "./canvas"
 import { FPS, WIDTH } from "./ego77";
 import { carried, shareOf } from "./footing";
 import { gestured } from "./gesturing";
-import { ceilingOf, heightsOf } from "./heights";
+import { ceilingOf, headingsOf, heightsOf, stridesOf } from "./heights";
 import { PARTS } from "./skeleton";
 import { brought, wayOf } from "./ways";
 import type { Said } from "./words";
 
 const GLOBAL = PARTS.indexOf("global");
-const HEIGHT = 3; // column of the pelvis
+const [AHEAD, HEIGHT] = [2, 3]; // columns of the way forward and of the pelvis
 
-/** The root of texts that go down or up, on the spot. */
+/** The root of texts that go down or up on the spot, and of jumps. */
 export function planned(pieces: Piece[], frames: number): Held {
   const held = nothing(frames);
-  for (const { from, to, said } of spans(pieces))
+  for (const { from, to, said } of spans(pieces)) {
+    const strides = stridesOf(said, to - from);
     heightsOf(said, to - from)?.forEach((height, i) => {
+      held.motion[(from + i) * WIDTH + AHEAD] = (strides?.[i] ?? 0) / FPS;
       held.motion[(from + i) * WIDTH + HEIGHT] = height;
       held.parts[(from + i) * PARTS.length + GLOBAL] = 1;
     });
+  }
   return held;
 }
 
@@ -51,6 +54,11 @@ function asSaid(given: Float32Array, said: Said): Held {
   }
   const ceiling = ceilingOf(said);
   if (ceiling !== null && lowered(rows, Math.fround(ceiling))) changed[GLOBAL] = true;
+  const headings = headingsOf(said, rows.length / WIDTH);
+  if (headings) {
+    for (let f = 1; f < headings.length; f++) rows[(f - 1) * WIDTH] = headings[f] - headings[f - 1];
+    changed[GLOBAL] = true;
+  }
   const way = wayOf(said, rows.length / WIDTH / FPS);
   const found = way && brought(rows, way);
   if (found) changed[GLOBAL] = true;

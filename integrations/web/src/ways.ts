@@ -12,11 +12,26 @@ export interface Way {
   forward: Range | null;
   left: Range | null;
   either: boolean;
+  /** Metres over the ground, at least and at most. */
+  length: Range | null;
+  /** Metres from its start that it stays within, all the way. */
+  near: number | null;
 }
 
 const TURNS: Record<string, Range> = { turn: [60, 125], around: [150, 215], full: [330, 400] };
 const BENDS: Record<string, Range> = { curve: [70, 190], circle: [240, 420], spin: [330, 760] };
+const SLIGHTLY: Range = [20, 60];
+const VEERING: Range = [50, 95];
 const STRAIGHT: Range = [-12, 12];
+const FACING: Range = [-20, 20]; // of who goes aside or backward
+const SPINS_S = 0.9; // seconds of one turn of somebody who spins several times, at least
+const BRISK: Range = [1.2, 2.2]; // m/s of who walks fast
+const SLIGHT = /\b(?:slight\w*|a (?:bit|little)|gentl[ey]|gradual\w*|drift\w*)\b/;
+const DEGREES = /\b([1-9]\d{1,2}) ?(?:degs?\b|degrees?\b|\u00b0)/i;
+const VEER = /\b(?:veer|swerv|bear|bank)\w*/;
+const [FASTEST_ASIDE, FASTEST_BACK, FASTEST_BEND] = [0.8, 0.95, 1.5]; // m/s of who does not run
+const FAST = ["jog", "run"];
+const [NEAR, LONGER] = [0.4, 3]; // metres that whoever stays may stray; times that a way is made longer at most
 const ANY_PACE: Range = [0.45, 9]; // m/s, as all of these
 const PACES: Record<string, Range> = { slow: [0.3, 0.8], walk: [0.75, 1.6], jog: [1.5, 3], run: [2.2, 6] };
 const [BACKWARD, SIDEWAYS, STAIRS] = [0.4, 0.25, 0.3]; // least m/s
@@ -25,21 +40,49 @@ const [TURNED, GONE] = [Math.PI / 180, 0.02]; // what is not worth a correction,
 
 /** What a text says of the way of a motion of so many seconds; null where it says nothing. */
 export function wayOf(said: Said, seconds: number): Way | null {
-  const [turn, side] = turning(said);
+  const [turn, side] = turning(said, seconds);
   const [forward, left] = places(said, seconds);
-  if (!turn && !forward && !left) return null;
+  const length = lengthOf(said, seconds);
+  if (!turn && !forward && !left && !length) return null;
   return {
     turn: turn && side === "right" ? [-turn[1], -turn[0]] : turn,
     forward,
     left,
-    either: turn !== null && turn !== STRAIGHT && side !== "left" && side !== "right",
+    either: turn !== null && turn !== STRAIGHT && turn !== FACING && side !== "left" && side !== "right",
+    length,
+    near: said.travel === "none" ? NEAR : null,
   };
 }
 
-function turning(said: Said): [Range | null, string | null] {
+function turning(said: Said, seconds: number): [Range | null, string | null] {
   if (said.turn === "none" || said.path === "straight") return [STRAIGHT, null];
+  const exact = exactly(said);
+  if (exact) return [exact, (said.path ? said.path_side : said.turn_side) ?? null];
+  if (said.path === "spin" && (said.repeats ?? 0) > 1) {
+    const count = Math.min(said.repeats, Math.max(1, Math.trunc(seconds / SPINS_S)));
+    return [[350 * count, 410 * count], said.path_side ?? null];
+  }
   if (said.path) return [BENDS[said.path] ?? null, said.path_side ?? null];
-  return said.turn ? [TURNS[said.turn] ?? null, said.turn_side ?? null] : [null, null];
+  if (said.turn) return [TURNS[said.turn] ?? null, said.turn_side ?? null];
+  return [["left", "right", "sideways", "backward"].includes(said.travel) && !said.course ? FACING : null, null];
+}
+
+/** How far somebody turns of whose turn the text says that it is small, or how many degrees it has. */
+function exactly(said: Said): Range | null {
+  const degrees = DEGREES.exec(said.text);
+  if (degrees && (said.turn === "turn" || said.turn === "around") && !said.path) return [0.9 * Number(degrees[1]), 1.1 * Number(degrees[1])];
+  if (said.path === "curve" || (!said.path && said.turn === "turn")) return SLIGHT.test(said.text) ? SLIGHTLY : VEER.test(said.text) ? VEERING : null;
+  return null;
+}
+
+/** How long the way of somebody is who goes aside, backward or along a bend. */
+function lengthOf(said: Said, seconds: number): Range | null {
+  const fast = FAST.includes(said.speed);
+  if (["left", "right", "sideways"].includes(said.travel) && !fast && !said.jumps) return [0, FASTEST_ASIDE * seconds];
+  if (said.travel === "backward" && !said.jumps) return [0, (fast ? PACES.jog[1] : FASTEST_BACK) * seconds];
+  if (!(said.course || said.path === "curve" || said.path === "circle") || said.action === "dance" || said.action === "swim") return null;
+  const [low, high] = PACES[said.speed] ?? ANY_PACE;
+  return [said.travel === "forward" ? low * seconds : 0, (fast ? high : FASTEST_BEND) * seconds];
 }
 
 function places(said: Said, seconds: number): [Range | null, Range | null] {
@@ -52,8 +95,9 @@ function places(said: Said, seconds: number): [Range | null, Range | null] {
     const low = BACKWARD * seconds;
     return [[-9, -low], [-ASIDE * low, ASIDE * low]];
   }
-  if (said.travel === "forward" && (!said.path || said.path === "straight") && (!said.turn || said.turn === "none")) {
-    const [low, high] = PACES[said.speed] ?? ANY_PACE;
+  if (said.travel === "forward" && !said.course && (!said.path || said.path === "straight") && (!said.turn || said.turn === "none")) {
+    const brisk = said.pace === "fast" && !said.speed && said.action === "walk";
+    const [low, high] = brisk ? BRISK : PACES[said.speed] ?? ANY_PACE;
     return [[low * seconds, high * seconds], [-ASIDE * low * seconds, ASIDE * low * seconds]];
   }
   return said.action === "stairs" && !said.travel ? [[STAIRS * seconds, 9], null] : [null, null];
@@ -66,12 +110,40 @@ export function brought(features: Float32Array, way: Way): Float32Array | null {
   const rows = Float64Array.from(features);
   const shares = Array.from({ length: frames - 1 }, (_, f) => Math.sin((Math.PI * (f + 0.5)) / (frames - 1)) ** 2);
   const total = shares.reduce((a, b) => a + b);
+  const stayed = stay(rows, way);
+  const lengthened = lengthen(rows, way);
   const turned = turn(rows, way, shares.map((share) => share / total));
   const placed = place(rows, way, shares.map((share) => share / total));
-  return turned || placed ? Float32Array.from(rows) : null;
+  return stayed || lengthened || turned || placed ? Float32Array.from(rows) : null;
 }
 
 const into = (value: number, wanted: Range | null): number => (wanted ? clamp(value, wanted[0], wanted[1]) : value);
+
+/** Make a way shorter that strays too far from its start; in place. */
+function stay(rows: Float64Array, way: Way): boolean {
+  if (way.near === null) return false;
+  const joints = decode(rows);
+  let far = 0;
+  for (let i = 0; i < joints.length; i += JOINTS * 3) far = Math.max(far, Math.hypot(joints[i] - joints[0], joints[i + 2] - joints[2]));
+  if (far <= way.near + GONE) return false;
+  scale(rows, way.near / far, rows.length);
+  return true;
+}
+
+/** Bring the length of a way into its range; in place. */
+function lengthen(rows: Float64Array, way: Way): boolean {
+  if (!way.length) return false;
+  let now = 0;
+  for (let i = 0; i < rows.length - WIDTH; i += WIDTH) now += Math.hypot(rows[i + 1], rows[i + 2]);
+  const off = into(now, way.length) - now;
+  if (Math.abs(off) <= GONE || now < GONE) return false;
+  scale(rows, Math.min((now + off) / now, LONGER), rows.length - WIDTH);
+  return true;
+}
+
+function scale(rows: Float64Array, part: number, end: number): void {
+  for (let i = 0; i < end; i += WIDTH) for (const k of [1, 2]) rows[i + k] *= part;
+}
 
 function turn(rows: Float64Array, way: Way, shares: number[]): boolean {
   if (!way.turn) return false;

@@ -1,6 +1,7 @@
 // What a text says about a motion: motionrt's parser, with the patterns of its lexicon (data/words.json).
 import data from "./data/words.json";
-import { first, type Found, has, matches, only, plain, sides, type Table, without } from "./patterns";
+import { first, type Found, has, matches, only, sides, type Table, without } from "./patterns";
+import { worded } from "./wording";
 
 export type Said = Record<string, any>;
 
@@ -10,7 +11,7 @@ const SEVERAL = -1;
 
 /** What `text` says: attributes by name, undefined or null where it says nothing. */
 export function parseQuery(text: string): Said {
-  const whole = plain(text);
+  const whole = worded(text);
   const said: Said = {};
   for (const [pattern, meaning] of lex.NEGATED_MEANING as [string, Said][]) if (has(whole, pattern)) Object.assign(said, meaning);
   const words = without(without(whole, [lex.NEGATION]), lex.NO_SIDES);
@@ -50,6 +51,8 @@ function pathOf(words: string, found: Said): Said {
   const text = without(words, [lex.NOT_PATHS]);
   const side = found.turn_side;
   const goes = has(text, lex.GOES);
+  const course = first(text, lex.COURSES);
+  if (course) return { course, turn: null, turn_side: null };
   if (has(text, lex.SPINS) && found.turn !== "around") return { path: "spin", path_side: side, turn: found.turn === "full" ? "full" : null };
   if (has(text, lex.CIRCLES) && found.turn !== "around")
     return { path: found.turn === "full" && !goes ? "spin" : "circle", path_side: side, turn: null };

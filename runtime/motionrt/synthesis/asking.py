@@ -13,7 +13,7 @@ from motionrt.synthesis.constraints import Constraints
 from motionrt.synthesis.generating import Generator
 from motionrt.synthesis.motion_generator import Wanted
 from motionrt.synthesis.sampling import Sampling
-from motionrt.synthesis.timeline import Item, Line, read_timeline
+from motionrt.synthesis.timeline import Item, Line, lines_of_text, read_timeline
 from motionrt.untrusted.arguments import check_flags, checked_whole
 
 MOST_CANDIDATES = 64
@@ -50,7 +50,9 @@ class Asked:
         if self.sampling.sampler != "motion" and (self.constraints or self.loop or not isinstance(given, str)):
             raise InvalidInputError("timelines, constraints and loops are drawn by the sampler 'motion' alone")
         if isinstance(given, str):
-            return (Line(checked_text(given), 0.0, self.sampling.seconds),)
+            text, seconds = checked_text(given), self.sampling.seconds
+            one = self.sampling.sampler != "motion" or self.constraints is not None or self.loop
+            return (Line(text, 0.0, seconds),) if one else lines_of_text(text, seconds)
         return read_timeline(given, label)
 
     def answer(self, lines: tuple[Line, ...], generator: Generator, likeness: Likeness) -> list[Motion]:

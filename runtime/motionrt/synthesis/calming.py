@@ -9,7 +9,7 @@ from motionrt.models.text import FloatArray
 from motionrt.motion.body_parts import PARTS
 from motionrt.motion.features import ego77
 from motionrt.motion.skeleton import SMPL24
-from motionrt.text import TextAttributes
+from motionrt.text import TextAttributes, gestures_of_text
 
 STILL = 0.1  # m/s that hands and feet of whoever stands still may have
 ONE_ARM = 0.55  # speed of the other hand beside that of the one that a text names, at most
@@ -36,13 +36,22 @@ def calmed(features: FloatArray, said: TextAttributes) -> tuple[FloatArray, Bool
             rows[:, :3] *= part
             parts[:] = True
         return rows, parts
-    if said.arm in ("left", "right"):
-        _favour(rows, parts, said.arm)
+    side = _hand_of(said)
+    if side is not None:
+        _favour(rows, parts, side)
     if said.action in THRUSTS:
         for side in ("left", "right"):
             if said.arm in (None, "both", side) and _thrust(rows, side):
                 parts[:, PARTS.index(f"{side} arm")] = True
     return rows, parts
+
+
+def _hand_of(said: TextAttributes) -> str | None:
+    """The one hand that does what a text says."""
+    if said.arm in ("left", "right"):
+        return said.arm
+    hands = [side for side, _ in gestures_of_text(said).hands] if said.arm is None else []
+    return hands[0] if len(hands) == 1 else None
 
 
 def _thrust(rows: FloatArray, side: str) -> bool:

@@ -20,7 +20,7 @@ from motionrt.synthesis.finishing import finished
 from motionrt.synthesis.motion_generator import MotionGenerator, Wanted
 from motionrt.synthesis.sampling import Sampling
 from motionrt.synthesis.smoothing import smoothed
-from motionrt.synthesis.timeline import Line
+from motionrt.synthesis.timeline import lines_of_text
 
 PADDING = 20  # frames: the decoder sees multiples of them only, so that 12 lengths are all it ever has memory for
 
@@ -54,7 +54,7 @@ class Generator:
         how = sampling or Sampling()
         checked_text(text)  # before a model is opened for it
         if how.sampler == "motion":
-            return self.in_motion_space.generate(Wanted((Line(text, 0.0, how.seconds),)), how)
+            return self.in_motion_space.generate(Wanted(lines_of_text(text, how.seconds)), how)
         self._prepare(how.sampler)
         return [finished(motion, how.foot_lock) for motion in self.decode(self.latents(text, how), how.frames)]
 

@@ -22,6 +22,13 @@ BOW, BOW_AT, BOW_S = 0.95, 0.45, 1.0  # radians that a trunk bows, when it is lo
 STEP_HZ, STEP_UP, STEP_AHEAD = 0.9, 0.3, 0.12  # pairs of marching steps a second, and metres that feet are lifted
 HELD_UP, HELD_AHEAD = 0.35, -0.1  # metres that a foot is held up
 KNEELS, LOW_KNEE, FRONT = (0.62, 0.5), 0.12, 0.33  # pelvis heights between which knees go down; knee; foot in front
+LIES, FLAT, ON_FLOOR = (
+    (0.34, 0.18),
+    1.5,
+    0.05,
+)  # pelvis heights between which a trunk lies down; its lean; its joints, at least
+UPRIGHT = 0.22  # radians that the trunk of somebody who stands and gestures leans, at most
+UP, BENT = (0.6, 0.8), 0.4  # pelvis heights between which a trunk that will lie is kept up; its lean then, at most
 STANDS = 0.09  # metres that the ankle of a standing foot is above the floor
 _ELBOW: tuple[float, float, float] = (0.4, -0.9, -0.3)  # out, up, ahead: where elbows point where nothing else is seen
 _KNEE: tuple[float, float, float] = (0.1, 0.0, 1.0)
@@ -40,6 +47,9 @@ def gestured(features: FloatArray, said: TextAttributes) -> tuple[FloatArray, Bo
     times = np.arange(len(rows)) / ego77.FPS
     if found.bows:
         parts[:, [PARTS.index(part) for part in ("torso", "left arm", "right arm")]] |= _bow(rows, times)[:, None]
+    if found.lies or found.stands:
+        led = _lying(rows) if found.lies else _standing(rows)
+        parts[:, [PARTS.index(part) for part in ("torso", "left arm", "right arm")]] |= led[:, None]
     for side, gesture in found.hands:
         parts[:, PARTS.index(f"{side} arm")] |= _hand(rows, times, side, gesture, said)
     if found.marches or found.lifted:
@@ -105,6 +115,43 @@ def _bow(rows: Array, times: Array) -> BoolArray:
         x, y, z = (_place(rows, name) - pelvis).T
         _set(rows, name, pelvis + np.stack([x, c * y - s * z, s * y + c * z], axis=1), every)
     return every
+
+
+def _standing(rows: Array) -> BoolArray:
+    """Bring a trunk upright that leans too far; in place. The frames of it."""
+    pelvis = np.stack([np.zeros(len(rows)), rows[:, 3], np.zeros(len(rows))], axis=1)
+    trunk = _place(rows, "neck") - pelvis
+    lean = np.arctan2(trunk[:, 2], trunk[:, 1])
+    off = np.clip(lean, -UPRIGHT, UPRIGHT) - lean
+    led: BoolArray = np.abs(off) > 1e-3
+    c, s = np.cos(off), np.sin(off)
+    for name in _TRUNK:
+        x, y, z = (_place(rows, name) - pelvis).T
+        _set(rows, name, pelvis + np.stack([x, c * y - s * z, s * y + c * z], axis=1), led)
+    return led
+
+
+def _lying(rows: Array) -> BoolArray:
+    """Lay the trunk on the floor while the pelvis is there, to the side it leans to, and keep it up before; in place.
+
+    The frames of it.
+    """
+    high, low = LIES
+    weight, upright = _smooth((high - rows[:, 3]) / (high - low)), _smooth((rows[:, 3] - UP[0]) / (UP[1] - UP[0]))
+    led = weight + upright > 0
+    pelvis = np.stack([np.zeros(len(rows)), rows[:, 3], np.zeros(len(rows))], axis=1)
+    trunk = _place(rows, "neck") - pelvis
+    ahead = 1.0 if float((weight * trunk[:, 2]).sum()) > 0 else -1.0
+    lean = np.arctan2(trunk[:, 2], trunk[:, 1])
+    off = weight * np.where(ahead * lean < FLAT, ahead * FLAT - lean, 0.0)
+    off += upright * (np.clip(lean, -BENT, BENT) - lean)
+    c, s = np.cos(off), np.sin(off)
+    for name in _TRUNK:
+        x, y, z = (_place(rows, name) - pelvis).T
+        up = pelvis[:, 1] + c * y - s * z
+        up += weight * (np.maximum(up, ON_FLOOR) - up)
+        _set(rows, name, np.stack([x, up, s * y + c * z], axis=1), led)
+    return led
 
 
 def _foot(rows: Array, times: Array, side: str, marches: bool) -> BoolArray:

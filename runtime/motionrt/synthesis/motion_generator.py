@@ -25,7 +25,7 @@ from motionrt.synthesis.heads import with_heads
 from motionrt.synthesis.sampling import Sampling
 from motionrt.synthesis.steering import planned, steered
 from motionrt.synthesis.timeline import NETWORK, Line, pieces
-from motionrt.text import parse_query, slots_of_text, targets_of_text
+from motionrt.text import network_text, parse_query, slots_of_text, standing, targets_of_text
 
 READ = 24  # tokens of a text that the network has learnt to read
 RING = 10  # frames at 20 fps over which the end of a loop passes into its beginning
@@ -117,11 +117,11 @@ class MotionGenerator:
 
     def words(self, text: str, seconds: float) -> Words:
         """What the network is told of a text that lasts so long."""
-        found = self.sentences.encode(text)
+        found = self.sentences.encode(network_text(text))
         read = SentenceFeatures(
             found.token_features[:, :READ], found.attention_mask[:, :READ], found.sentence_embedding
         )
-        said = parse_query(text)
+        said = standing(parse_query(text))
         return Words(read, slots_of_text(said), *targets_of_text(said, seconds), said)
 
     def features(self, canvas: Canvas, sampling: Sampling, number: int = 0) -> FloatArray:
@@ -141,7 +141,7 @@ class MotionGenerator:
             return locked(_where(wanted.constraints.kept[0].motion, motion), sampling.foot_lock)
         if wanted.constraints.corrects:
             return locked(motion, sampling.foot_lock)
-        return finished(motion, sampling.foot_lock)
+        return finished(motion, sampling.foot_lock, walking=not wanted.constraints.keyframes)
 
 
 def _where(clip: Motion, motion: Motion) -> Motion:

@@ -18,23 +18,34 @@ from motionrt.synthesis.calming import calmed
 from motionrt.synthesis.canvas import OWNERS, Held, Piece
 from motionrt.synthesis.footing import carried, share_of
 from motionrt.synthesis.gesturing import gestured
-from motionrt.text import TextAttributes, ceiling_of_text, heights_of_text, way_of_text
+from motionrt.text import (
+    TextAttributes,
+    ceiling_of_text,
+    headings_of_text,
+    heights_of_text,
+    strides_of_text,
+    way_of_text,
+)
 from motionrt.text.ways import Range, Way
 
 GLOBAL = PARTS.index("global")
 HEIGHT = 3  # column of the pelvis
 _TURNED, _GONE = np.radians(1.0), 0.02  # what is not worth a correction, radians and metres
+_LONGER = 3.0  # times that a way is made longer, at most
 
 Array = npt.NDArray[np.float64]
 
 
 def planned(pieces: Sequence[Piece], frames: int) -> Held:
-    """The root of texts that go down or up, on the spot."""
+    """The root of texts that go down or up on the spot, and of jumps."""
     held = Held.nothing(frames)
     for span, said in _spans(pieces):
-        heights = heights_of_text(said, np.arange(span.stop - span.start) / ego77.FPS)
+        times = np.arange(span.stop - span.start) / ego77.FPS
+        heights = heights_of_text(said, times)
         if heights is not None:
-            held.motion[span, ego77.ROOT] = np.stack([np.zeros_like(heights)] * 3 + [heights], axis=1)
+            strides, still = strides_of_text(said, times), np.zeros_like(heights)
+            ahead = still if strides is None else strides / np.float32(ego77.FPS)
+            held.motion[span, ego77.ROOT] = np.stack([still, still, ahead, heights], axis=1)
             held.parts[span, GLOBAL] = True
     return held
 
@@ -52,6 +63,9 @@ def steered(features: FloatArray, pieces: Sequence[Piece]) -> Held:
         ceiling = ceiling_of_text(said)
         if ceiling is not None and (rows[:, HEIGHT] > ceiling).any():
             rows[:, HEIGHT], parts[:, GLOBAL] = np.minimum(rows[:, HEIGHT], ceiling), True
+        headings = headings_of_text(said, np.arange(len(rows)) / ego77.FPS)
+        if headings is not None:
+            rows[:-1, 0], parts[:, GLOBAL] = np.diff(headings), True
         found = brought(rows, way_of_text(said, len(rows) / ego77.FPS))
         if found is not None:
             rows, parts[:, GLOBAL] = found, True
@@ -90,7 +104,7 @@ def brought(features: FloatArray, way: Way) -> FloatArray | None:
         return None
     share = np.sin(np.pi * (np.arange(len(rows) - 1) + 0.5) / (len(rows) - 1)) ** 2
     share /= share.sum()
-    changed = _turn(rows, way, share)
+    changed = _stay(rows, way) | _lengthen(rows, way) | _turn(rows, way, share)
     return rows.astype(np.float32) if _place(rows, way, share) or changed else None
 
 
@@ -102,6 +116,30 @@ def _turn(rows: Array, way: Way, share: Array) -> bool:
     off = _into(now, (-high, -low) if way.either and now < 0 else (low, high)) - now
     rows[:-1, 0] += off * share
     return bool(abs(off) > _TURNED)
+
+
+def _stay(rows: Array, way: Way) -> bool:
+    """Make a way shorter that strays too far from its start; in place. Whether anything had to be done."""
+    if way.near is None:
+        return False
+    ground = ego77.decode(rows)[:, 0, [0, 2]]
+    far = float(np.linalg.norm(ground - ground[0], axis=1).max())
+    if far <= way.near + _GONE:
+        return False
+    rows[:, 1:3] *= way.near / far
+    return True
+
+
+def _lengthen(rows: Array, way: Way) -> bool:
+    """Bring the length of a way into its range; in place. Whether anything had to be done."""
+    if way.length is None:
+        return False
+    now = float(np.hypot(rows[:-1, 1], rows[:-1, 2]).sum())
+    off = _into(now, way.length) - now
+    if abs(off) <= _GONE or now < _GONE:
+        return False
+    rows[:-1, 1:3] *= min((now + off) / now, _LONGER)
+    return True
 
 
 def _place(rows: Array, way: Way, share: Array) -> bool:

@@ -14,10 +14,12 @@ from motionrt.motion.body_parts import PARTS, checked_parts
 from motionrt.motion.features import ego77
 from motionrt.synthesis.canvas import Piece, Words
 from motionrt.synthesis.sampling import SECONDS, SHORTEST_S
+from motionrt.text import clauses
 from motionrt.untrusted.arguments import checked_number
 
 LONGEST_S = 9.5  # of one text; the network knows 10 s, and neighbours overlap
 OVERLAP = 5  # frames at 20 fps on either side of a change over which texts pass into each other
+SHORTEST_ACT_S = 1.0  # of acts of a text that follow one another; with less time they are one
 NETWORK = 200  # frames that the network can see at once
 _KEYS = ("text", "seconds", "from", "to", "parts")
 
@@ -39,6 +41,16 @@ class Line:
     start: float
     end: float
     parts: frozenset[str] | None = None
+
+
+def lines_of_text(text: str, seconds: float) -> tuple[Line, ...]:
+    """The acts of a text that follow one another, each with its share of the seconds; one line where there is one."""
+    acts = clauses(text)
+    share = seconds / len(acts)
+    if len(acts) < 2 or share < SHORTEST_ACT_S:
+        return (Line(text, 0.0, seconds),)
+    times = [*(round(10 * share * k) / 10 for k in range(len(acts))), seconds]
+    return tuple(Line(act, times[k], times[k + 1]) for k, act in enumerate(acts))
 
 
 def read_timeline(items: Sequence[Item], label: Callable[[str], frozenset[str]]) -> tuple[Line, ...]:

@@ -38,6 +38,9 @@ def path_of(words: str, found: Found) -> Found:
     """``path`` and ``path_side``; a spin or circle leaves the amount of the turn open."""
     text = without(words, [lex.NOT_PATHS])
     side, goes = found["turn_side"], has(text, lex.GOES)
+    course = first(text, lex.COURSES)
+    if course:
+        return {"course": course, "turn": None, "turn_side": None}
     if has(text, lex.SPINS) and found["turn"] != "around":
         return {"path": "spin", "path_side": side, "turn": "full" if found["turn"] == "full" else None}
     if has(text, lex.CIRCLES) and found["turn"] != "around":

@@ -9,10 +9,11 @@ from motionrt.errors import InvalidInputError
 from motionrt.text import lexicon as lex
 from motionrt.text.directions import path_of, speed_of, travel_of, turn_of
 from motionrt.text.limbs import arms_of, feet_of, hands_of
-from motionrt.text.patterns import affirmed, compiled, has, may_match, plain
+from motionrt.text.patterns import affirmed, compiled, has, may_match
 from motionrt.text.postures import postures_of
 from motionrt.text.query import TextAttributes
 from motionrt.text.times import jumps_of, repeats_of
+from motionrt.text.wording import worded
 
 
 def parse_query(text: str) -> TextAttributes:
@@ -28,7 +29,7 @@ def parse_query(text: str) -> TextAttributes:
 
 @lru_cache(maxsize=4096)
 def _parsed(text: str) -> TextAttributes:
-    whole = plain(text)
+    whole = worded(text)
     said: dict[str, Any] = {}
     for pattern, meaning in lex.NEGATED_MEANING:
         if has(whole, pattern):

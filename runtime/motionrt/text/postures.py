@@ -62,9 +62,14 @@ def _dip(words: str, deepest: str, events: list[tuple[int, str]]) -> Found:
     if has(words, lex.CROUCHED) and not has(words, lex.SEVERAL_CLAUSES):
         return {"posture_start": deepest, "posture_end": deepest, "posture_lowest": deepest}
     if has(words, lex.STAY_WORDS):
-        return {"posture_end": deepest, "posture_lowest": deepest}
+        down = {"posture_start": "standing", "level": "down"} if deepest == "crouching" and _goes_down(words) else {}
+        return {"posture_end": deepest, "posture_lowest": deepest, **down}
     down = {"level": "down and up"} if deepest == "crouching" and not has(words, lex.SEVERAL_CLAUSES) else {}
     return {"posture_lowest": deepest, **down, **ends}
+
+
+def _goes_down(words: str) -> bool:
+    return has(words, lex.DOWN_WORDS) or has(words, r"\binto (?:a|the) \w*")
 
 
 def _start(words: str, events: list[tuple[int, str]]) -> str | None:

@@ -25,6 +25,7 @@ class TextAttributes:
         turn: ``"none"``, ``"turn"`` (a quarter, more or less), ``"around"`` (half) or ``"full"``.
         turn_side: ``"left"`` or ``"right"``.
         path: ``"straight"``, ``"curve"``, ``"circle"`` or ``"spin"`` (on the spot); path_side: as of a turn.
+        course: a way that bends to one side and the other: ``"zigzag"`` or ``"eight"``.
         travel: ``"forward"``, ``"backward"``, ``"left"``, ``"right"``, ``"sideways"`` or ``"none"``.
         speed: ``"still"``, ``"slow"``, ``"walk"``, ``"jog"`` or ``"run"``: how fast the body gets on.
         pace: ``"slow"`` or ``"fast"``: an adverb, whatever it belongs to.
@@ -50,6 +51,7 @@ class TextAttributes:
     turn_side: Side | None = None
     path: str | None = None
     path_side: Side | None = None
+    course: str | None = None
     travel: str | None = None
     speed: str | None = None
     pace: str | None = None

@@ -43,7 +43,7 @@ def test_trunks_knees_and_feet_are_found() -> None:
     assert found("takes a bow").bows
     assert not found("shoots with bow and arrow").bows
     assert found("a soldier marches in place").marches
-    assert found("balances on the left leg").lifted == "left"
+    assert found("balances on the left leg").lifted == "right"
     assert found("kneels on the right knee").kneels == "right"
     assert found("kneels down").kneels == "both"
     assert found("scratches a knee").kneels is None

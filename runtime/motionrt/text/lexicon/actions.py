@@ -12,7 +12,7 @@ r"|ing)?\b(?! (?:the|his|her|their|a|up|ball|dice|dough|shoulder|out))"),
     "crawl": r"\bcrawl\w*|all fours|hands and knees",
     "kick": r"\bkick\w*|roundhouse",
     "punch": (r"\bpunch\w*|\bjab\w*|\bbox(?:er|ing|es)\b(?! up)|uppercut|\bhooks?\b(?! shot)|shadow ?box\w*"
-r"|\bfists?\b"),
+r"|\bfists?\b(?! (?:\w+ ){0,2}(?:in the air|up\b|high|raised|overhead|above))"),
     "fight": (r"\bfight\w*|karate|kung ?fu|martial|taekwondo|\bspar\w*|\bblocks?\b|fencing|\bkata\b|sword\w*"
 r"|\bslash\w*"),
     "throw": (r"\bthrow\w*|\btoss\w*|\bpitch\w*|\bhurl\w*|\blob(?:s|bing)?\b|\bpass(?:es)? (?:a|the) ball"
@@ -26,7 +26,7 @@ r"|chest pass|\bfling\w*|\bcatch\w*"),
 r"|chicken dance|macarena|\bjig\b|hip ?hop|\bdisco\b|\btango\b|cha ?cha|moonwalk"),
     "march": r"\bmarch\w*|goose ?step|high knees",
     "stairs": r"\bstairs?\b|staircase|upstairs|downstairs|ladder|\bclimb\w*|step ?ladder",
-    "hop": r"\bhop(?:s|ping|ped)?\b|one ?legged jump",
+    "hop": r"\bhop(?:s|ping|ped)?\b|\bskip(?:s|ping|ped)?\b(?! (?:a step|the))|one ?legged jump",
     "jump": r"\bjump\w*|\bleap\w*|\bbound(?:s|ing)?\b|\bvault\w*",
     "run": r"\brun(?:s|ning)?\b(?! (?:a |his |her |their )?(?:hand|finger|comb))|\bran\b|\bsprint\w*|\bdash\w*",
     "jog": r"\bjog\w*|\btrot\w*",
@@ -58,7 +58,7 @@ r"|\bpenguin|\bdrunk\w*|\banimal\b|\bpirate\b|\bmummy\b"),
     "turn": r"\bturn(?:s|ing|ed)?\b|about ?face|\bpivot\w*|\brotat\w*|\bspin\w*|\btwirl\w*|\bu ?turn",
     "walk": (r"\bwalk\w*|\bstroll\w*|\bstrid(?:e|es|ing)\b|\bwander\w*|\bsaunter\w*|\bstrut\w*|\blimp\w*"
 r"|\bstagger\w*|\btrudg\w*|\bpac(?:es|ing)\b|\bhik\w+|\bsteps?\b|\bstepping\b|\bhobbl\w*"
-r"|\bswagger\w*"),
+r"|\bswagger\w*|\bstumbl\w*"),
     "stand": r"\bstand(?:s|ing)?\b|\bidl(?:e|es|ing)\b|\bwait\w*|motionless|\bstill\b",
 }  # fmt: skip
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 GROUPS = {
     "the": r"(?:(?:the|a|an|his|her|their|your|my|its|one'?s?) )?",
     "the2": r"(?:(?:the|a|an|his|her|their|your|my|its|of|one'?s?|both|two) )*",
-    "hand": r"(?:hands?|arms?|fists?|elbows?|wrists?|palms?|forearms?|shoulders?|fingers?)",
+    "hand": r"(?:hands?|biceps?|triceps|thumbs?|arms?|fists?|elbows?|wrists?|palms?|forearms?|shoulders?|fingers?)",
     "foot": r"(?:foot|feet|legs?|knees?|ankles?|toes?|heels?|thighs?|shins?)",
     "armact": (
         r"(?:hook|jab|cross|uppercut|punch|punches|swing|block|forehand|backhand|wave|throw|slap"
@@ -22,6 +22,12 @@ GROUPS = {
     "turn": (
         r"(?:turn|rotate|rotat|pivot|veer|swerv|swing|curv|twist|bend|arc|spin|twirl|swivel|loop|circl"
         r"|spiral|cut|bear|wheel|reel|angl|whip|flip|corner|orbit)\w*"
+    ),
+    "unseated": (  # not behind words that say how somebody is on the floor
+        r"(?<!sit )(?<!sits )(?<!sitting )(?<!sat )(?<!down )(?<!seated )(?<!crawl )(?<!crawls"
+        r" )(?<!crawling )(?<!fours )"
+        r"(?<!knees )(?<!kneel )(?<!kneels )(?<!kneeling )(?<!legged )(?<!something )(?<!foot )(?<!feet"
+        r" )(?<!hands )(?<!hand )"
     ),
     "side": r"(?P<side>left|right)",
     "up": (
@@ -68,6 +74,10 @@ NEGATED_MEANING = (  # a negation that says something itself
             r"(?:without|not|never|no|hardly|barely|doesn'?t|does not|don'?t) (?:\w+ )?mov(?:e|es|ing"
             r"|ement)\b(?! (?:the|his|her|their|forward|back|from|away|off|along))"
         ),
+        {"still": True},
+    ),
+    (
+        r"(?:without|not|never|doesn'?t|does not|don'?t) (?:\w+ )?(?:budg|flinch|stirr?|twitch)(?:e|es|ing)?\b",
         {"still": True},
     ),
     (

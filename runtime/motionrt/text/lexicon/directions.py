@@ -36,7 +36,7 @@ NO_TURN = (
 )
 
 TURN_SIDE = (  # how a side belongs to a turn or a path
-    r"{turn}(?: \w+){0,4}? {side}\b(?! (?:{hand}|{foot}|{armact}|{legact}))",
+    r"{turn}(?:,? \w+){0,5}? {side}\b(?! (?:{hand}|{foot}|{armact}|{legact}))",
     (
         r"{side}(?: hand| handed| ?ward| ?wards)? (?:\w+ )?(?:turn|pivot|rotation|spin|curve|bend"
         r"|circle|arc|about|u turn|loop|twirl|corner|spiral|swerve)\w*"
@@ -47,6 +47,8 @@ TURN_SIDE = (  # how a side belongs to a turn or a path
         r"|{foot}|{armact}|{legact}|side))"
     ),
     r"{side} (?:wheel|face)\b",
+    r"\b(?:45|90|180|270|360|degrees?) (?:degrees? )?(?:to |towards? )?(?:the |his |her "
+    r"|their )?{side}\b(?! (?:{hand}|{foot}))",
 )
 
 SPINS = (
@@ -56,7 +58,7 @@ SPINS = (
 
 CIRCLES = (
     r"\bcircle[sd]?\b|circling|circular|\bloops?\b|\blaps?\b|round and round|orbit\w*|\bspiral\w*"
-    r"|full circle|ring\b"
+    r"|full circle|\brings?\b(?! (?:a|the) (?:bell|doorbell))"
 )
 
 CURVES = (
@@ -89,7 +91,8 @@ TRAVELS = (
         "backward",
         (
             r"backwards?\b(?! (?:arm|kick|bend|lean|swing))|(?:{go}) (?:\w+ )?back\b(?! (?:and forth|to"
-            r"|up to|in|from|down|upright))|back(?:s|ing|ed)? (?:up|away|off|pedal\w*)\b|\bbackpedal\w*"
+            r"|up to|in (?:the|his|her|place|position)|into|from|down|upright))|back(?:s|ing|ed)? (?:up"
+            r"|away|off|pedal\w*)\b|\bbackpedal\w*"
             r"|retreat\w*|\bin reverse\b|moonwalk\w*|\brearward\b|\bbacks\b"
         ),
     ),
@@ -105,7 +108,7 @@ TRAVELS = (
         "forward",
         (
             r"\bforwards?\b(?! (?:bend|fold|lean|kick|roll|swing))|\bahead\b|onwards?|\badvanc\w+"
-            r"|\bapproach\w*|towards?\b"
+            r"|\bapproach\w*|towards?\b|\b(?:jump|leap|vault|hop|bound|spring)\w* (?:\w+ )?(?:over|across)\b"
         ),
     ),
 )
@@ -123,12 +126,13 @@ SIDEWAYS_TO = (
 
 GOES = (
     r"\b(?:walk|run|jog|stroll|strid|march|sprint|creep|sneak|crawl|skip|trot|trudg|stagger|limp"
-    r"|pac|saunter|wander|hik|strut|dash|hobbl|plod|ambl|sham?bl|charg|jaunt|swagger|run)(?:s|ks"
-    r"|ing|es|e|ning|ned|ed|ging|ged|ped|ping|ting|ted)?\b"
+    r"|pac|saunter|wander|hik|strut|dash|hobbl|plod|ambl|sham?bl|charg|jaunt|swagger|run|tip ?to|stumbl|lurch|gallop"
+    r"|scurr|zig ?zag|slalom|shuffl(?=(?:es?|ing) (?:along|forward|ahead|on))|lung(?=es? (?:forward|across)))(?:s|ks"
+    r"|ing|eing|es|e|ning|ned|ed|ging|ged|ped|ping|ting|ted)?\b"
 )
 
 IN_PLACE_ACTIONS = frozenset(
-    {"stand", "sit", "lie", "clap", "stretch", "jumping jack", "wave", "squat", "bow", "kneel"}
+    {"stand", "sit", "lie", "clap", "stretch", "jumping jack", "wave", "squat", "bow", "kneel", "gesture", "golf"}
 )
 
 SPEEDS = (
@@ -171,14 +175,15 @@ PACES = (
         "slow",
         (
             r"\bslow(?:ly)?\b|gradual\w*|gentl[ey]\b|leisurely|unhurried|careful\w*|lazily|sluggish\w*"
-            r"|calm(?:ly)?\b"
+            r"|calm(?:ly)?\b|\b(?:in )?slow motion\b|\bslo ?mo\b"
         ),
     ),
     (
         "fast",
         (
             r"\bfast(?:er)?\b|quick(?:ly|er)?\b|rapid(?:ly)?\b|swift(?:ly)?\b|brisk(?:ly)?\b|hurr(?:y|ies"
-            r"|ied|iedly)\b|energetic\w*|vigorous\w*|furious\w*|\brush\w*|speedy|speedily|sudden\w*"
+            r"|ied|iedly)\b|as fast as|flat out|(?:top|full) speed|full tilt|energetic\w*|vigorous\w*"
+            r"|furious\w*|\brush\w*|speedy|speedily|sudden\w*"
         ),
     ),
 )
@@ -198,3 +203,19 @@ TURN_VERBS = r"\b(?:face|faces|facing|wheel|go|goes|take|takes|make|makes|hard)\
 WARD = r"\b(?P<side>left|right)ward"
 
 STEPS_OR_TURNS = r"\b(?:step|mov|turn|approach|spin)\w*"
+
+
+COURSES = (  # ways that bend to one side and the other
+    (
+        "zigzag",
+        (
+            r"\bzig ?zag\w*|\bslalom\w*|\bserpentine\b|\bweav(?:es?|ing) (?:\w+ )?(?:through|between"
+            r"|in and out|left|from)"
+            r"|\bs (?:shape|curve)\w*|\b(?:winding|wavy|snaking) (?:path|line|way|course)\b"
+        ),
+    ),
+    (
+        "eight",
+        r"\bfigures? (?:of )?(?:eights?|8s?)\b|\binfinity\b|\b(?:shape of an? |number )(?:eight|8)\b|\beight shape\w*",
+    ),
+)

@@ -14,7 +14,9 @@ ARMS_UP = (  # the first that matches
             r"|in front|side))|(?:arms|hands) (?:are |is )?(?:go |goes |shoot |rise |stretched |thrown "
             r"|held )?(?:up\b|overhead|high)|(?:both|two) (?:arms|hands|fists) (?:\w+ )?(?:up\b|overhead"
             r"|high|raised|over|above)|chin ?ups?|pull ?ups?|overhead press|shot at the basket"
-            r"|shoots? a basket|jump ?shot|cheer\w*|overhead clap|hail\w*|sun salutation|y pose|victory"
+            r"|shoot\w* (?:a |the |some )?(?:basket|basketball|hoops?|three pointer|free throw)s?\b"
+            r"|jump ?shot|free throw|cheer\w*|overhead clap|hail\w*|sun salutation|y pose|victory"
+            r"|\breach\w* (?:up|overhead|upwards?)\b(?! (?:and|to) (?:grab|touch|get))|\bstretch\w* up\b"
         ),
     ),
     (
@@ -24,9 +26,17 @@ ARMS_UP = (  # the first that matches
             r"|a stick))|\bhand up\b|\barm up\b|{up} (?:up )?{the}(?:left |right )?(?:arm|hand"
             r"|fist)(?: straight)? {high}|(?:rais|lift)\w* (?:up )?{the}(?:left |right )?(?:arm|hand"
             r"|fist)\b(?! (?:to the (?:side|front)|forward|out|in front))|(?:left|right) (?:arm|hand"
-            r"|fist) (?:\w+ )?(?:up\b|overhead|high|raised|in the air|above)|salut\w*|tennis serve"
+            r"|fist) (?:\w+ ){0,2}(?:up\b|overhead|high|raised|in the air|above)|salut\w*|tennis serve"
             r"|\bserv(?:e|es|ing)\b|overhand|hook shot|lay ?up|\bdunk\w*|hailing|(?:arm|hand|fist) raised"
-            r"|pitch(?:es|ing)? (?:a|the) ball|spik\w+ (?:a|the) ball"
+            r"|high ?five\w*|(?:arm|hand|fist) (?:\w+ )?(?:up\b|aloft)|pitch(?:es|ing)? (?:a|the) ball"
+            r"|spik\w+ (?:a|the) ball"
+        ),
+    ),
+    (
+        "none",
+        (
+            r"(?:lower|drop)\w* (?:{the2}(?:left |right )?(?:arms?|hands?)|them|it)\b(?! (?:to the floor|on))"
+            r"|(?:arms|hands) (?:\w+ )?(?:at|by|to) {the2}sides?\b"
         ),
     ),
 )
@@ -87,7 +97,8 @@ PICK = r"pick\w*(?: \w+){0,4} (?:up|off|from)\b|pick ?up|scoop\w*|tie\w* (?:\w+ 
 CLAPS = r"\bclap\w*|applau\w*"
 
 TOGETHER = (
-    r"hands (?:\w+ )?together|\bpray\w*|palms together|clasp\w*|rub\w* (?:the |his |her "
+    r"hands (?:\w+ )?together|\bpray\w*|palms together|clasp\w*|wash\w* (?:the |his |her |their )?hands"
+    r"|rub\w* (?:the |his |her "
     r"|their )?hands|hands meet"
 )
 

@@ -32,11 +32,13 @@ POSTURE_STATES = (  # posture name -> words that somebody is or gets into it
     (
         "lying",
         (
-            r"\b(?:lie|lies|lay|lays|lying|laid)\b(?! ups?\b)(?! (?:\w+ )?(?:bricks?|hands|the|a|his|her"
-            r"|something|low)\b| back\b)|\bfall(?:s|ing)?\b(?! (?:in|into|back into"
+            r"\b(?:lie|lies|lay|lays|lying|laying|laid)\b(?! ups?\b)(?! (?:down )?(?:bricks?|hands|the|a"
+            r"|an|his|her|some"
+            r"|something|low|out)\b| back\b)|\bfall(?:s|ing)?\b(?! (?:in|into|back into"
             r"|asleep standing))(?: (?:\w+ )?(?:down|over|flat|to the (?:ground|floor)|on))?|\bfell\b"
             r"|collaps\w*|knocked (?:down|out|over)|\bsleep\w*|on (?:the|his|her|their) (?:back|stomach"
-            r"|belly|side of|floor)\b|\bprone\b|supine|faint\w*|\bsit ?ups?\b|\bdies?\b|\bdying\b"
+            r"|belly|side of)\b|{unseated}on (?:the|his|her|their) (?:floor|ground)\b|\bprone\b|supine"
+            r"|faint\w*|\bsit ?ups?\b|\bdies?\b|\bdying\b"
         ),
     ),
     (
@@ -74,9 +76,10 @@ DOWN_WORDS = (
     r"(?:knees?|fours|seat|chair|stool|bench|couch|sofa|floor|ground|stomach|belly|back)\b"
     r"|sits? down|sitting down|sat down|lies? down|lying down|lay(?:s|ing)? down"
     r"|kneels?(?: down)?\b|\bknelt|to (?:one|his|her|the|both|their) knees?|falls?\b|fell\b"
-    r"|collaps\w*|tak\w+ a (?:seat|knee)|gets? down|getting down|goes? down|drop\w* (?:down|to)"
+    r"|falling\b|\bdie\b|collaps\w*|tak\w+ a (?:seat|knee)|gets? down|getting down|goes? down|drop\w* (?:down|to)"
     r"|lower\w* (?:himself|herself|themselves|down|to)|faint\w*|knocked (?:down|out|over)|dies"
-    r"|faints|sits on|sits\b|sit on|sit\b|lie on|lies on|dying|genuflect\w*|squats? down"
+    r"|faints|(?<!is )sits on|(?<!is )sits\b|sit on|sit\b|lie on|lies on|\blie (?:flat|face|still)|dying"
+    r"|genuflect\w*|squats? down"
     r"|crouch\w* down|propose\w*"
 )
 
@@ -84,27 +87,28 @@ DIP_POSTURES = frozenset({"crouching", "bent"})  # gone into and out of again, u
 
 STAY_WORDS = (
     r"(?:stay|remain|keep|wait|rest)\w* (?:\w+ )?(?:low|down|crouch\w*|bent|squat\w*|there)\b"
-    r"|hunkered|crouch\w* (?:idle|pose)|hold\w* (?:a|the) (?:squat|crouch|bow|lunge)\w*"
+    r"|\bstays crouched\b|hunkered|crouch\w* (?:idle|pose)|hold\w* (?:a|the) (?:squat|crouch|bow|lunge)\w*"
 )
 
 CROUCHED = (
-    r"(?:crouched|crouching|squatting|ducked|duck) (?:walk|step|run|mov)\w*|(?:walk|step|run|mov"
+    r"(?:crouch(?:ed|ing)?|squatting|ducked|duck) (?:walk|step|run|mov)\w*|(?:walk|step|run|mov"
     r"|sneak|creep)\w* (?:\w+ ){0,2}(?:in a (?:\w+ )?(?:crouch|squat)|crouch\w*|bent over)"
 )
 
 JUMPS = (
     r"\bjump\w*|\bleap\w*|\bhop(?:s|ping|ped)?\b|\bbound(?:s|ing)?\b|\bvault\w*|jumping ?jacks?"
-    r"|star ?jumps?|skip\w* rope|rope skip\w*|\bdunk\w*|\bspring(?:s|ing)? (?:up|into)"
+    r"|star ?jumps?|\bskip(?:s|ping|ped)?\b(?! (?:rope|a step|the))|skip\w* rope|rope skip\w*|\bdunk\w*"
+    r"|\bspring(?:s|ing)? (?:up|into)"
 )
 
 NO_JUMP_ACTIONS = frozenset(
     {"stand", "walk", "march", "sneak", "lie", "crawl", "kneel", "bow", "clap", "wave", "pick up"}
 )
 
-MOVES_ON = JUMPS + r"|\bstep\w*|\bmov\w*|\blung\w*|\bcrawl"
+MOVES_ON = JUMPS + r"|\bstep\w*|\bmov\w*|\blung\w*|\bcrawl|\bcarr(?:y|ies)|\bdrag"
 
 FROM = r"\b(?:from|off|out)\b"  # one rises from what is named behind it
 
 RISES = r"\b{rise}"
 
-MANY_JUMPS = r"hopping|hops|jacks?\b|bounding|rope|jump\w* (?:around|on the spot|along)\b"
+MANY_JUMPS = r"hopping|hops|\bskip(?:s|ping)?\b|jacks?\b|bounding|rope|jump\w* (?:around|on the spot|along)\b"
