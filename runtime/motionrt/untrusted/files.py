@@ -54,6 +54,11 @@ def confined(folder: Path) -> Iterator[None]:
         _confined.reset(token)
 
 
+def is_confined() -> bool:
+    """Whether files may only name files of one folder now."""
+    return _confined.get() is not None
+
+
 def beside(folder: Path, name: str, fail: Fail) -> Path:
     """The path of a file that another file names, relative to its folder.
 

@@ -10,6 +10,7 @@ from mini_files import AMC, ASF, write
 from motionrt.errors import FormatError, MotionFileNotFoundError
 from motionrt.formats import read_amc
 from motionrt.formats.acclaim.asf_search import find_asf, find_fps
+from motionrt.untrusted.files import confined
 
 
 def skeleton(path: Path, thigh: float) -> Path:
@@ -95,3 +96,20 @@ def test_fps_given_wins(tmp_path: Path) -> None:
     skeleton(tmp_path / "16.asf", 8)
     assert read_amc(amc).fps == 120
     assert read_amc(amc, fps=60).fps == 60
+
+
+def test_where_only_uploaded_files_may_be_read_nothing_outside_their_folder_is_looked_for(tmp_path: Path) -> None:
+    uploads, outside = tmp_path / "uploads", tmp_path / "asf"
+    for folder in (uploads, outside):
+        folder.mkdir()
+    skeleton(outside / "01.asf", 1.0)
+    (tmp_path / "index.csv").write_text("trial,fps\n01_01,nonsense\n", encoding="utf-8")
+    trial = write(uploads / "01_01.amc", AMC)
+    assert find_asf(trial).path == outside / "01.asf"
+    with confined(uploads):
+        with pytest.raises(MotionFileNotFoundError):
+            find_asf(trial)
+        assert find_fps(trial) == 120
+        assert (
+            find_asf(trial.with_name(skeleton(uploads / "01.asf", 1.0).with_suffix(".amc").name)).path.parent == uploads
+        )

@@ -14,6 +14,7 @@ from motions import walking
 
 from motionrt.errors import FormatError, InvalidInputError
 from motionrt.formats import load_character
+from motionrt.limits import raised
 from motionrt.rigs.skin import fewer_colours
 
 ROOT = Path(__file__).parents[3]
@@ -94,6 +95,29 @@ def test_colours_are_those_of_the_texture_in_the_middle_of_a_triangle(tmp_path: 
     colours = load_character(made.save(tmp_path / "two.glb")).skin.colours
     assert colours[0].tolist() == [200, 30, 10]
     assert colours[1].tolist() == [10, 60, 220]
+
+
+def test_many_pictures_that_unpack_to_more_than_their_bytes_say_stay_packed(tmp_path: Path) -> None:
+    image = pytest.importorskip("PIL.Image", reason="textures need Pillow, which is not installed")
+    made, painted = glb(character("mixamo")), {}
+    for side in (1500, 1501, 1502):
+        picture = BytesIO()
+        image.new("RGB", (side, side), (200, 30, 10)).save(picture, "PNG")
+        packed = np.frombuffer(picture.getvalue(), np.uint8)
+        made.array(packed, "SCALAR")
+        painted[side] = len(made.document["bufferViews"]) - 1
+    made.document["images"] = [{"bufferView": view} for view in painted.values()]
+    made.document["textures"] = [{"source": number} for number in range(3)]
+    part = made.document["meshes"][0]["primitives"][0]
+    count = made.document["accessors"][part["attributes"]["POSITION"]]["count"]
+    part["attributes"]["TEXCOORD_0"] = made.array(np.full((count, 2), 0.3, np.float32), "VEC2")
+    made.document["materials"] = [{"pbrMetallicRoughness": {"baseColorTexture": {"index": n}}} for n in range(3)]
+    made.document["meshes"][0]["primitives"] = [{**part, "material": number} for number in range(3)]
+    file = made.save(tmp_path / "bomb.glb")
+    with raised(pixels=5_000_000):  # two of them
+        colours = load_character(file).skin.colours.reshape(3, -1, 3)
+    assert [tuple(part[0].tolist()) == (200, 30, 10) for part in colours] == [True, True, False]
+    assert (load_character(file).skin.colours == (200, 30, 10)).all()
 
 
 def test_a_mesh_without_a_skin_moves_with_the_joint_that_it_hangs_on(tmp_path: Path) -> None:

@@ -10,6 +10,7 @@ import numpy as np
 
 from motionrt.errors import FormatError, MotionFileNotFoundError, MotionRTError
 from motionrt.formats.acclaim.asf import AsfSkeleton, read_asf
+from motionrt.untrusted.files import is_confined
 
 DEFAULT_FPS = 120.0
 """The rate of the CMU database, whose AMC files do not state it."""
@@ -23,7 +24,7 @@ def find_asf(amc: Path) -> AsfSkeleton:
     else, of all skeletons there, the one whose legs are of median length (of an even number the shorter one;
     of equals the first by name). Its bone lengths are approximate; the choice depends on the folder alone.
     """
-    folders = [amc.parent, amc.parent.parent / "asf"]
+    folders = [amc.parent] if is_confined() else [amc.parent, amc.parent.parent / "asf"]
     names = [amc.stem, amc.stem.rsplit("_", 1)[0], amc.stem.split("_")[0], "default"]
     for name in dict.fromkeys(names):
         for folder in folders:
@@ -40,7 +41,7 @@ def find_asf(amc: Path) -> AsfSkeleton:
 
 def find_fps(amc: Path) -> float:
     """The trial's rate from an ``index.csv`` with ``trial`` and ``fps``, here or one folder up; else 120."""
-    for folder in (amc.parent, amc.parent.parent):
+    for folder in (amc.parent,) if is_confined() else (amc.parent, amc.parent.parent):
         index = folder / "index.csv"
         if index.is_file():
             fps = _indexed_fps(index, amc.stem)

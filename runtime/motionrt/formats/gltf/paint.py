@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import io
+from hashlib import sha256
 from importlib import import_module
 from typing import Any
 
@@ -12,10 +13,12 @@ import numpy.typing as npt
 
 from motionrt.formats.gltf.container import Json
 from motionrt.formats.gltf.document import GlbDocument
+from motionrt.limits import limits
 
 Bytes = npt.NDArray[np.uint8]
 _SIDE = 512  # pixels of a texture that are looked at
 _LARGEST = 1 << 26  # pixels of a texture that is read
+_DENSE = 20  # pixels for every byte of a picture that is what it seems; more count against the limit of pixels
 _CLEAR = 64  # of 255; what is clearer is not there
 _GREY = (200, 204, 210)
 
@@ -30,7 +33,8 @@ class Paint:
     """
 
     def __init__(self, document: GlbDocument) -> None:
-        self._document, self._images = document, dict[int, Bytes | None]()
+        self._document, self._images = document, dict[bytes, Bytes | None]()
+        self._left = limits().pixels
 
     def of(self, primitive: Json, faces: Any, vertices: int) -> tuple[Bytes, npt.NDArray[np.bool_]]:
         """Colours ``(T, 3)`` of triangles ``(T, 3)``, and which of them can be seen at all ``(T,)``."""
@@ -60,27 +64,35 @@ class Paint:
         source = _item(self._document.json, "textures", texture).get("source")
         if not isinstance(source, int):
             return None
-        if source not in self._images:
-            self._images[source] = self._decoded(_item(self._document.json, "images", source))
-        return self._images[source]
+        content = self._content(_item(self._document.json, "images", source))
+        if content is None:
+            return None
+        mark = sha256(content).digest()  # many images may be one picture
+        if mark not in self._images:
+            self._images[mark] = self._decoded(content)
+        return self._images[mark]
 
-    def _decoded(self, image: Json) -> Bytes | None:
-        content = self._content(image)
+    def _decoded(self, content: bytes) -> Bytes | None:
         try:
             pillow = import_module("PIL.Image")
         except ImportError:
             return None
-        if content is None:
-            return None
         try:
             with pillow.open(io.BytesIO(content), formats=("PNG", "JPEG", "WEBP")) as opened:
-                if opened.width * opened.height > _LARGEST:
+                if not self._affordable(opened.width * opened.height, len(content)):
                     return None
                 opened.draft("RGB", (_SIDE, _SIDE))
                 opened.thumbnail((_SIDE, _SIDE))
                 return np.asarray(opened.convert("RGBA"))
         except Exception:  # noqa: BLE001  Pillow raises of many kinds for damaged pictures, and no colour ends a figure
             return None
+
+    def _affordable(self, pixels: int, size: int) -> bool:
+        """Whether a picture may be unpacked; those of many more pixels than bytes share one limit."""
+        if pixels > _LARGEST or (pixels > _DENSE * size and pixels > self._left):
+            return False
+        self._left -= pixels if pixels > _DENSE * size else 0
+        return True
 
     def _content(self, image: Json) -> bytes | None:
         uri = image.get("uri")
