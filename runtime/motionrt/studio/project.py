@@ -64,7 +64,7 @@ def unpacked(content: bytes) -> list[tuple[str, bytes]]:
     found: dict[str, bytes] = {}
     try:
         with zipfile.ZipFile(io.BytesIO(content)) as archive:
-            members = [member for member in archive.infolist() if not member.is_dir()]
+            members = [member for member in archive.infolist() if not member.filename.endswith("/")]
             members = [member for member in members if not _hidden(member.filename)]
             _check(members)
             for member in members:

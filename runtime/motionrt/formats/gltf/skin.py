@@ -16,6 +16,7 @@ from motionrt.formats.gltf.bind import global_nodes
 from motionrt.formats.gltf.container import Json
 from motionrt.formats.gltf.document import GlbDocument
 from motionrt.formats.gltf.paint import Paint
+from motionrt.formats.text import LARGEST_VALUE
 from motionrt.motion.kinematics import fk
 from motionrt.motion.rotations import Array
 from motionrt.rigs.skin import INFLUENCES, Skin, joined
@@ -100,6 +101,8 @@ class _Reader:
         seen = np.einsum("vkij,vj->vki", matrices[1][joints][..., :3, :3], points) + matrices[1][joints][..., :3, 3]
         mine = np.array(matrices[0])[joints]
         local = np.einsum("vkji,vkj->vki", self.turns[mine], seen - self.places[mine])
+        if not (np.abs(local) <= LARGEST_VALUE).all() or not np.isfinite(weights).all():
+            raise FormatError(self.document.path, "has a mesh of numbers that are not finite or too large: it is damaged")
         colours, shown = self.paint.of(part, faces, len(points))
         return Skin(faces[shown], colours[shown], mine, weights.astype(np.float32), local.astype(np.float32))
 

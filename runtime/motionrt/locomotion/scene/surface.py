@@ -92,16 +92,28 @@ def _samples(triangles: Triangles, spacing: float) -> Iterator[tuple[Points, Int
             f"the mesh is too large for cells of {2 * spacing:g} m: give a larger cell=, check scale=, or: "
             f"{how_to_raise('stretched_samples' if stretched < limits().samples else 'samples')}"
         )
-    total = np.cumsum(rows * across)
-    for part in np.split(np.arange(len(turned)), np.searchsorted(total, np.arange(_BATCH, total[-1], _BATCH))):
+    names, starts, counts = _bands(rows, across)
+    total = np.cumsum(counts * across[names])
+    for part in np.split(np.arange(len(names)), np.searchsorted(total, np.arange(_BATCH, total[-1], _BATCH))):
         if len(part):
-            yield _fill(turned[part], rows[part], across[part], part)
+            some = names[part]
+            yield _fill(turned[some], rows[some], across[some], some, starts[part], counts[part])
 
 
-def _fill(triangles: Triangles, rows: IntArray, across: IntArray, names: IntArray) -> tuple[Points, IntArray]:
-    """Samples of some triangles: ``rows`` rows each, the first as long as the first edge, the last a point."""
-    owner, row = _count_up(rows)
-    down = row / np.maximum(rows[owner] - 1, 1)
+def _bands(rows: IntArray, across: IntArray) -> tuple[IntArray, IntArray, IntArray]:
+    """Triangles in bands of rows that are no batch each: ``(B,)`` the triangle, its first row, and how many rows."""
+    most = np.maximum(_BATCH // across, 1)
+    name, band = _count_up(-(-rows // most))
+    starts = band * most[name]
+    return name, starts, np.minimum(most[name], rows[name] - starts)
+
+
+def _fill(
+    triangles: Triangles, rows: IntArray, across: IntArray, names: IntArray, starts: IntArray, counts: IntArray
+) -> tuple[Points, IntArray]:
+    """Samples of bands of triangles of ``rows`` rows each, the first as long as the first edge, the last a point."""
+    owner, row = _count_up(counts)
+    down = (row + starts[owner]) / np.maximum(rows[owner] - 1, 1)
     width = np.ceil((across[owner] - 1) * (1 - down)).astype(np.int64) + 1
     a, b, c = (triangles[owner, k] for k in range(3))
     begin, stride = a + down[:, None] * (c - a), (b - a) * ((1 - down) / np.maximum(width - 1, 1))[:, None]
