@@ -102,7 +102,9 @@ class _Reader:
         mine = np.array(matrices[0])[joints]
         local = np.einsum("vkji,vkj->vki", self.turns[mine], seen - self.places[mine])
         if not (np.abs(local) <= LARGEST_VALUE).all() or not np.isfinite(weights).all():
-            raise FormatError(self.document.path, "has a mesh of numbers that are not finite or too large: it is damaged")
+            raise FormatError(
+                self.document.path, "has a mesh of numbers that are not finite or too large: it is damaged"
+            )
         colours, shown = self.paint.of(part, faces, len(points))
         return Skin(faces[shown], colours[shown], mine, weights.astype(np.float32), local.astype(np.float32))
 

@@ -10,7 +10,7 @@ import pytest
 from drawn import box, joined
 
 from motionrt.errors import InvalidInputError, PathError, SceneError
-from motionrt.locomotion.scene import Agent, Scene
+from motionrt.locomotion.scene import Agent, Scene, surface
 
 FLOOR = box((-4, -0.2, -4), (4, 0, 4))
 SLIM = Agent(radius=0.2)
@@ -209,3 +209,17 @@ def test_a_ground_that_would_take_seconds_is_refused_with_what_to_do() -> None:
     corners = np.array([[0, 0, 0], [400, 0, 0], [400, 0, 400], [0, 0, 400]], float)
     with pytest.raises(SceneError, match="larger cell="):
         Scene.from_mesh((corners, np.array([[0, 2, 1], [0, 3, 2]])))
+
+
+def test_a_triangle_of_many_samples_is_sampled_in_bands_and_covered_as_in_one_piece(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    triangles = np.array([[[0, 0, 0], [0, 0, 90], [3, 0, 0]], [[0, 0, 0], [1, 1, 0], [0, 1, 1]]], np.float64)
+    whole = list(surface._samples(triangles, 0.05))
+    monkeypatch.setattr(surface, "_BATCH", 1000)
+    bands = list(surface._samples(triangles, 0.05))
+    assert len(whole) == 1
+    assert len(bands) > 20
+    assert max(len(points) for points, _ in bands) <= 2000
+    for one in range(2):
+        np.testing.assert_array_equal(np.concatenate([pair[one] for pair in bands]), whole[0][one])
