@@ -157,7 +157,7 @@ def _kept(path: Path, prompt: str) -> Made | None:
         known = json.loads(facts.read_text(encoding="utf-8"))
         if known["prompt"] == prompt:
             return Made(prompt, path, float(known["agreement"]), int(known["seed"]))
-    except (ValueError, KeyError, TypeError):
+    except (OSError, ValueError, KeyError, TypeError, RecursionError):  # it is made anew
         return None
     return None
 

@@ -52,6 +52,16 @@ def test_a_run_that_was_stopped_goes_on(runtime: Runtime, tmp_path: Path) -> Non
     assert len(found) == 2
 
 
+@pytest.mark.parametrize("facts", ["[" * 100_000, "{}", "no json", '{"prompt": "walk", "agreement": []}', "\xff"])
+def test_a_clip_whose_facts_are_damaged_is_made_anew(runtime: Runtime, tmp_path: Path, facts: str) -> None:
+    library.make(["walk"], tmp_path, runtime=runtime)
+    before = (tmp_path / "walk.glb").stat().st_mtime_ns
+    (tmp_path / "walk.json").write_text(facts, encoding="latin-1")
+    library.make(["walk"], tmp_path, runtime=runtime)
+    assert (tmp_path / "walk.glb").stat().st_mtime_ns > before
+    assert json.loads((tmp_path / "walk.json").read_text(encoding="utf-8"))["prompt"] == "walk"
+
+
 @pytest.mark.parametrize("given", [{"prompts": []}, {"suffix": ".fbx"}, {"accept": 2}, {"each": 0}, {"prompts": [""]}])
 def test_what_cannot_be_is_refused(runtime: Runtime, tmp_path: Path, given: dict[str, object]) -> None:
     with pytest.raises(InvalidInputError):
