@@ -2,8 +2,8 @@
 
     python tests/fuzz/long_motions.py --frames 1000000 [CALL ...]
 
-Every call runs in a process of its own. Prints by how many bytes a frame it grew at its peak, and the longest line of
-it in seconds of the processor, between two of which Ctrl-C is heard; exits with 1 where either is beyond its limit.
+Every call runs in a process of its own. Prints by how many bytes a frame it grew at its peak, and for how many seconds
+of the processor at most Ctrl-C would not have been heard; exits with 1 where either is beyond its limit.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ from __future__ import annotations
 import argparse
 import json
 import os
+import signal
 import sys
 import tempfile
 import time
@@ -41,8 +42,8 @@ LIMIT = 4 * FRAME
 """Bytes that a call may take for every frame that it reads or makes: its result, twice (a Motion copies what it is
 given), and as much again."""
 FIXED = 200 << 20
-LONGEST_S = 0.2
-"""Seconds of the processor that one line may take."""
+LONGEST_S, TICK_S = 0.2, 0.005
+"""Seconds of the processor for which no signal may be heard; of how often it is looked."""
 LOOKED_THROUGH = 20_000
 """Frames in which a text is looked for: every window of them is embedded, which is hours for a million."""
 
@@ -104,17 +105,17 @@ def _alone(file: Path) -> Path:
 
 
 def grown(call: Callable[[Motion], object], motion: Motion, *, traced: bool = False) -> tuple[int, float, str]:
-    """Bytes by which a process grows at its peak, beyond the motion that it is given; the longest line, if traced."""
+    """Bytes by which a process grows at its peak, beyond the motion that it is given; the longest wait, if traced."""
     ours, theirs = os.pipe()
     if (pid := os.fork()) == 0:
-        longest = LongestLine()
+        longest = LongestWait()
         try:
             Path("/proc/self/clear_refs").write_text("5", encoding="ascii")  # the peak begins anew
             before = _kilobytes("VmHWM")
             if traced:
-                sys.settrace(longest)
+                longest.start()
             call(motion)
-            sys.settrace(None)
+            longest.stop()
             said: Any = [(_kilobytes("VmHWM") - before) * 1024, longest.seconds, longest.place]
         except Exception as error:  # noqa: BLE001  # whatever it is, it is told
             said = [0, 0.0, f"{type(error).__name__}: {error}"[:300]]
@@ -128,21 +129,32 @@ def grown(call: Callable[[Motion], object], motion: Motion, *, traced: bool = Fa
     return size, seconds, place
 
 
-class LongestLine:
-    """A trace function: how long the longest line took, in seconds of the processor, and from where to where."""
+class LongestWait:
+    """The longest time, in seconds of the processor, between two moments when Python hears signals, and where it ended.
+
+    A timer signals every few milliseconds; nothing is slowed down by that.
+    """
 
     def __init__(self) -> None:
         self.seconds, self.place = 0.0, ""
-        self._since, self._line = time.process_time(), ""
-
-    def __call__(self, frame: Any, event: str, _: object) -> LongestLine:
-        now = time.process_time()
-        line = f"{Path(frame.f_code.co_filename).name}:{frame.f_lineno}"
-        if now - self._since > self.seconds:
-            self.seconds, self.place = now - self._since, f"{self._line} to {line}"
-        self._line = line
         self._since = time.process_time()
-        return self
+
+    def start(self) -> None:
+        """From now on."""
+        signal.signal(signal.SIGPROF, self._heard)
+        self._since = time.process_time()
+        signal.setitimer(signal.ITIMER_PROF, TICK_S, TICK_S)
+
+    def stop(self) -> None:
+        """Until now."""
+        signal.setitimer(signal.ITIMER_PROF, 0)
+        self.seconds = max(self.seconds, TICK_S)
+
+    def _heard(self, _: int, frame: Any) -> None:
+        waited = time.process_time() - self._since
+        if waited > self.seconds and frame is not None:
+            self.seconds, self.place = waited, f"{Path(frame.f_code.co_filename).name}:{frame.f_lineno}"
+        self._since = time.process_time()
 
 
 def _kilobytes(name: str) -> int:

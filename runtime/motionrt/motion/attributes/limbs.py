@@ -66,7 +66,7 @@ def repetition(body: Body) -> dict[str, float]:
     """How often a movement of hands, feet and head repeats; 0 where no period shows."""
     ends = [body.own[:, j] for j in (15, 20, 21, 7, 8)]
     away = np.concatenate(ends, axis=1)
-    away = away - away.mean(axis=0)
+    away -= away.mean(axis=0)
     spread = away.T @ away / len(away)
     if len(away) < FPS or np.trace(spread) < 1e-3:
         return {"repetitions": 0.0}

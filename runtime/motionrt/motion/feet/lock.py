@@ -18,7 +18,7 @@ from motionrt.motion.feet.two_bone import LEG_JOINTS, bend_legs, soft_limit
 from motionrt.motion.motion import Motion
 from motionrt.motion.rotations import Array, lengths
 from motionrt.motion.runs import BoolArray, Indices, Runs
-from motionrt.motion.skeleton import SMPL24
+from motionrt.motion.skeleton import SMPL24, FloatArray
 
 BLEND_S = 0.2  # seconds over which a correction fades, where the next contact leaves that much time
 MAX_DROP = 0.05  # metres that the pelvis may sink for a foot that would not reach
@@ -65,33 +65,47 @@ def lock_feet(
     planted = _planted(toes, speed, motion.fps, floor) if contacts is None else np.asarray(contacts, dtype=bool)
     if planted.shape != (motion.frames, 2):
         raise InvalidInputError(f"contacts must have the shape ({motion.frames}, 2), not {planted.shape}")
-    positions = motion.positions().astype(np.float64)
     offset = _offsets(toes, planted, _calm(speed), floor if level else None, blend_s * motion.fps)
     offset[..., 1] += lift(toes[..., 1] + offset[..., 1] - floor, speed, clearance, swings_from)
     half = max(1, round(blend_s * motion.fps / 2))
-    return with_feet_moved(motion, positions, motion.global_rotations(), offset, planted, max_drop=max_drop, half=half)
+    places, turned = motion.positions(), motion.global_rotations()
+    return with_feet_moved(motion, places, turned, offset, planted, max_drop=max_drop, half=half)
 
 
 def with_feet_moved(
-    motion: Motion, positions: Array, turned: Array, offset: Array, counts: BoolArray, *, max_drop: float, half: int
+    motion: Motion,
+    positions: FloatArray | Array,
+    turned: Array,
+    offset: Array,
+    counts: BoolArray,
+    *,
+    max_drop: float,
+    half: int,
 ) -> Motion:
     """``motion`` with its feet moved; the legs follow, and the pelvis sinks where a foot would not reach.
 
     Args:
         motion: of ``smpl24``.
-        positions: ``(F, 24, 3)`` its joints, float64.
+        positions: ``(F, 24, 3)`` its joints; what is computed of them is float64.
         turned: ``(F, 24, 3, 3)`` its global rotations; feet may have been given others, which they keep.
         offset: ``(F, 2, 3)`` metres that the left and the right foot move.
         counts: ``(F, 2)``, for which of them the pelvis sinks.
         max_drop: metres that it may sink.
         half: frames to either side over which the sinking is smoothed.
     """
-    drop = smooth_cover(needed_drop(positions, offset, counts, max_drop), half)
+
+    def needed(places: Array, move: Array, count: BoolArray) -> Array:
+        return needed_drop(places.astype(np.float64), move, count, max_drop)
+
+    drop = smooth_cover(by_batches(needed, positions, offset, counts), half)
     sunk = np.array([0, 1, 0]) * drop[:, None]
-    moved = offset.copy()
-    moved[..., 1] += drop[:, None]
-    rotations = by_batches(bend_legs, motion.rotations, positions - sunk[:, None], turned, moved)
-    return replace(motion, rotations=rotations.astype(np.float32), root=(motion.root - sunk).astype(np.float32))
+
+    def bent(local: Array, places: Array, whole: Array, move: Array, down: Array) -> Array:
+        return bend_legs(local, places.astype(np.float64) - down[:, None], whole, move + down[:, None])
+
+    rotations = by_batches(bent, motion.rotations, positions, turned, offset, sunk)
+    root = (motion.root - sunk).astype(np.float32)
+    return replace(motion, rotations=rotations.astype(np.float32, copy=False), root=root)
 
 
 def lift(height: Array, speed: Array, clearance: float = CLEARANCE, swings_from: float = LOOSE_SPEED) -> Array:
