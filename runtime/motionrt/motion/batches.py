@@ -14,6 +14,13 @@ BATCH = 4096
 """Frames of a batch: a hundredth of a second for 24 joints."""
 
 
+def fill(out: Values, values: npt.ArrayLike) -> None:
+    """``out[:] = values`` of ``(F, ...)``, some thousand frames at a time; what has no frames is the same in all."""
+    spread = np.broadcast_to(np.asarray(values), out.shape)
+    for start in range(0, len(out), BATCH):
+        out[start : start + BATCH] = spread[start : start + BATCH]
+
+
 def by_batches(function: Callable[..., Values], *arrays: Values) -> Values:
     """``function(*arrays)`` of arrays ``(F, ...)``, where every frame of the result depends on that frame alone."""
     frames = len(arrays[0])

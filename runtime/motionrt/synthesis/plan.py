@@ -32,6 +32,7 @@ from motionrt.synthesis.constraints import Constraints, Kept, Keyframe, Target, 
 from motionrt.synthesis.timeline import Item
 from motionrt.untrusted import yaml_text
 from motionrt.untrusted.files import as_path, beside, read_utf8
+from motionrt.untrusted.words import shown
 
 KIMODO_FPS = 30.0
 _KEYS = ("timeline", "path", "targets", "keyframes", "keep")
@@ -189,6 +190,10 @@ class _Reader:
         return [self._number(number, name) for number in value]
 
     def _number(self, value: Any, name: str) -> float:
-        if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
-            raise self.fail(f"{name}: expected a number, found {value!r}", None)
-        return float(value)
+        try:
+            number = float("nan") if isinstance(value, bool) or not isinstance(value, int | float) else float(value)
+        except OverflowError:  # a whole number of hundreds of digits
+            number = float("inf")
+        if not math.isfinite(number):
+            raise self.fail(f"{name}: expected a number, found {shown(value)}", None)
+        return number

@@ -56,7 +56,8 @@ def continuous_xyzw(rotations: FloatArray) -> FloatArray:
 
 def _moved(clip: RigClip, still: FloatArray) -> list[bool]:
     size = float(np.abs(still).max(initial=1e-9))
-    away = np.abs(clip.translations - still).max(axis=(0, 2)) > _MOVES * size
+    places = np.moveaxis(clip.translations, 1, 0)
+    away = np.array([np.abs(place - here).max() for place, here in zip(places, still, strict=True)]) > _MOVES * size
     return [bool(moves) or parent < 0 for moves, parent in zip(away, clip.parents, strict=True)]
 
 

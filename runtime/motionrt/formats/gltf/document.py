@@ -19,6 +19,7 @@ from motionrt.formats.gltf.nodes import NodeTree, read_nodes
 from motionrt.formats.gltf.skeleton import GlbSkeleton, find_skeleton
 from motionrt.formats.gltf.tracks import Track, count_keys, read_tracks
 from motionrt.limits import how_to_raise, limits
+from motionrt.motion.batches import fill
 from motionrt.motion.rotations import Array, quaternion_to_matrix
 from motionrt.motion.skeleton import FloatArray
 from motionrt.rigs.clip import RigClip
@@ -121,9 +122,9 @@ class GlbDocument:
         translations = np.empty((len(times), joints, 3), dtype=np.float32)
         for joint, node in enumerate(self.skeleton.nodes):
             turn, move = tracks.get((joint, "rotation")), tracks.get((joint, "translation"))
-            rotations[:, joint] = self.tree.rotations[node] if turn is None else _matrices(turn.at(times))
+            fill(rotations[:, joint], self.tree.rotations[node] if turn is None else _matrices(turn.at(times)))
             places = self.tree.translations[node] if move is None else move.at(times)
-            translations[:, joint] = places * self.skeleton.units[joint]
+            fill(translations[:, joint], places * self.skeleton.units[joint])
         return rotations, translations
 
 
