@@ -8,6 +8,7 @@ import numpy as np
 
 from motionrt.formats.gltf.builder import GlbBuilder
 from motionrt.formats.gltf.container import Json
+from motionrt.motion.batches import by_batches
 from motionrt.motion.rotations import Array, matrix_to_quaternion
 from motionrt.motion.skeleton import FloatArray
 from motionrt.rigs.clip import RigClip
@@ -48,7 +49,7 @@ def build_animation(
 
 def continuous_xyzw(rotations: FloatArray) -> FloatArray:
     """Matrices ``(F, 3, 3)`` as unit quaternions ``(F, 4)``, xyzw, each on the same side as the one before it."""
-    wxyz = matrix_to_quaternion(rotations.astype(np.float64))
+    wxyz = by_batches(lambda part: matrix_to_quaternion(part.astype(np.float64)), rotations)
     flips = np.where((wxyz[1:] * wxyz[:-1]).sum(axis=-1) < 0, -1.0, 1.0)
     wxyz[1:] *= np.cumprod(flips)[:, None]
     return np.roll(wxyz, -1, axis=-1).astype(np.float32)

@@ -19,7 +19,7 @@ from motionrt.formats.gltf.nodes import NodeTree, read_nodes
 from motionrt.formats.gltf.skeleton import GlbSkeleton, find_skeleton
 from motionrt.formats.gltf.tracks import Track, count_keys, read_tracks
 from motionrt.limits import how_to_raise, limits
-from motionrt.motion.batches import fill
+from motionrt.motion.batches import by_batches, fill
 from motionrt.motion.rotations import Array, quaternion_to_matrix
 from motionrt.motion.skeleton import FloatArray
 from motionrt.rigs.clip import RigClip
@@ -137,4 +137,4 @@ def open_glb(path: str | Path, skin: int | str | None = None) -> GlbDocument:
 
 
 def _matrices(xyzw: Array) -> Array:
-    return quaternion_to_matrix(np.roll(xyzw, 1, axis=-1))
+    return by_batches(lambda part: quaternion_to_matrix(np.roll(part, 1, axis=-1)), xyzw)
