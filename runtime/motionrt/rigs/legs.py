@@ -43,8 +43,12 @@ def place_legs(turned: Turned, motion: Motion, bends: Array, stance: Stance, bui
     root[:, 1] -= drop
     chains[..., 1] -= drop[:, None, None]
     uppers = [[joints[f"{side}_{part}"] for part in ("hip", "knee")] for side in SIDES]
-    rotations = np.stack([np.stack([turned[joint] for joint in pair], axis=1) for pair in uppers], axis=1)
-    bent = by_batches(lambda *rows: two_bone(*rows)[1], chains, rotations, target, bends)
+
+    def bend(chain: Array, aim: Array, ahead: Array, *legs: Array) -> Array:
+        rotations = np.stack(legs, axis=1).reshape(-1, 2, 2, 3, 3)
+        return two_bone(chain, rotations, aim, ahead)[1]
+
+    bent = by_batches(bend, chains, target, bends, *(turned[joint] for pair in uppers for joint in pair))
     for side, pair in enumerate(uppers):
         for part, joint in enumerate(pair):
             turned[joint] = bent[:, side, part].astype(np.float32)
