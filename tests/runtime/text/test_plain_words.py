@@ -68,3 +68,22 @@ def test_wording_is_done_once_and_for_all() -> None:
 def test_a_network_reads_plain_texts_as_they_are() -> None:
     assert network_text("A person Walks-forward.") == "A person Walks-forward."
     assert network_text("He chucks a ball") == "he throws a ball"
+
+
+@pytest.mark.parametrize(
+    ("text", "name"),
+    [
+        ("stands with both arms out to the sides", "arms_up"),
+        ("lifts a can, drinks and lowers it", "arms_up"),
+        ("rises onto tiptoe", "travel"),
+        ("brings the hands to the face", "path"),
+        ("reverses the heading", "travel"),
+        ("comes down three steps", "action"),
+    ],
+)
+def test_words_that_only_look_alike_say_nothing(text: str, name: str) -> None:
+    assert getattr(parse_query(text), name) in (None, "walk")
+
+
+def test_the_way_of_a_whole_sentence_keeps_its_adverb() -> None:
+    assert parse_query("moves quickly ahead").pace == "fast"

@@ -12,7 +12,8 @@ r"|ing)?\b(?! (?:the|his|her|their|a|up|ball|dice|dough|shoulder|out))"),
     "crawl": r"\bcrawl\w*|all fours|hands and knees",
     "kick": r"\bkick\w*|roundhouse",
     "punch": (r"\bpunch\w*|\bjab\w*|\bbox(?:er|ing|es)\b(?! up)|uppercut|\bhooks?\b(?! shot)|shadow ?box\w*"
-r"|\bfists?\b(?! (?:\w+ ){0,2}(?:in the air|up\b|high|raised|overhead|above))"),
+r"|(?:left|right) cross\b(?! ?(?:legged|ed))|\bfists?\b(?! (?:\w+ ){0,2}(?:in the air|up\b|high|raised"
+r"|overhead|above))"),
     "fight": (r"\bfight\w*|karate|kung ?fu|martial|taekwondo|\bspar\w*|\bblocks?\b|fencing|\bkata\b|sword\w*"
 r"|\bslash\w*"),
     "throw": (r"\bthrow\w*|\btoss\w*|\bpitch\w*|\bhurl\w*|\blob(?:s|bing)?\b|\bpass(?:es)? (?:a|the) ball"

@@ -107,7 +107,7 @@ TIMES = (
     r"(?:(?P<n>\d{1,2}|{numbers}) (?:more |quick |big |small |little |forward |consecutive "
     r"|two footed |one legged |long )*(?:times?|jumps?|hops?|leaps?|claps?|kicks?|punches|jabs?"
     r"|squats?|waves?|throws?|steps?|bounds?|push ?ups?|sit ?ups?|bows?|spins?|turns?|jacks?"
-    r"|jumping jacks|lunges|bounces|swings)\b|\b(?P<w>once|twice|thrice)\b)"
+    r"|jumping jacks|lunges|bounces|swings|pirouettes|twirls|rotations|laps)\b|\b(?P<w>once|twice|thrice)\b)"
 )
 
 SEVERAL_CLAUSES = r",|;|\.(?! ?$)|\bthen\b|\bbefore\b|\bafter\b|\buntil\b|\bfinally\b"

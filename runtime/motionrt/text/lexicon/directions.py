@@ -36,7 +36,7 @@ NO_TURN = (
 )
 
 TURN_SIDE = (  # how a side belongs to a turn or a path
-    r"{turn}(?:,? \w+){0,5}? {side}\b(?! (?:{hand}|{foot}|{armact}|{legact}))",
+    r"{turn}(?: \w+){0,4}? {side}\b(?! (?:{hand}|{foot}|{armact}|{legact}))",
     (
         r"{side}(?: hand| handed| ?ward| ?wards)? (?:\w+ )?(?:turn|pivot|rotation|spin|curve|bend"
         r"|circle|arc|about|u turn|loop|twirl|corner|spiral|swerve)\w*"
@@ -126,7 +126,8 @@ SIDEWAYS_TO = (
 
 GOES = (
     r"\b(?:walk|run|jog|stroll|strid|march|sprint|creep|sneak|crawl|skip|trot|trudg|stagger|limp"
-    r"|pac|saunter|wander|hik|strut|dash|hobbl|plod|ambl|sham?bl|charg|jaunt|swagger|run|tip ?to|stumbl|lurch|gallop"
+    r"|pac|saunter|wander|hik|strut|dash|hobbl|plod|ambl|sham?bl|charg|jaunt|swagger|run|tip ?to(?=e(?:s"
+    r"|ing)\b|e (?:past|across|forward|around|through|along|away|to|over)\b)|stumbl|lurch|gallop"
     r"|scurr|zig ?zag|slalom|shuffl(?=(?:es?|ing) (?:along|forward|ahead|on))|lung(?=es? (?:forward|across)))(?:s|ks"
     r"|ing|eing|es|e|ning|ned|ed|ging|ged|ped|ping|ting|ted)?\b"
 )

@@ -205,7 +205,7 @@ GESTURES = (
         alternate=True,
     ),
     Gesture(
-        r"\b(?:punch|jab)\w*(?! (?:\w+ )?(?:button|card))",
+        r"(?:\b(?:punch|jab|uppercut)\w*|(?:left|right) (?:cross|hook))\b(?! (?:\w+ )?(?:button|card))",
         "one",
         _kept(-0.06, -0.06, 0.28),
         swing=(-0.03, 0.02, 0.22),

@@ -16,17 +16,19 @@ ARMS_UP = (  # the first that matches
             r"|high|raised|over|above)|chin ?ups?|pull ?ups?|overhead press|shot at the basket"
             r"|shoot\w* (?:a |the |some )?(?:basket|basketball|hoops?|three pointer|free throw)s?\b"
             r"|jump ?shot|free throw|cheer\w*|overhead clap|hail\w*|sun salutation|y pose|victory"
-            r"|\breach\w* (?:up|overhead|upwards?)\b(?! (?:and|to) (?:grab|touch|get))|\bstretch\w* up\b"
+            r"|\breach\w* (?:up|overhead|upwards?)\b (?:\w+ ){0,2}(?:both|hands|arms)\b|\bstretch\w* up\b"
         ),
     ),
     (
         "one",
         (
+            r"\breach\w* (?:up|overhead|upwards?)\b(?! (?:and|to) (?:grab|touch|get))|"
             r"\bwav(?:e|es|ing|ed)\b(?! (?:\w+ )?(?:arms|hands|the sword|a sword|sword|his arms|her arms"
             r"|a stick))|\bhand up\b|\barm up\b|{up} (?:up )?{the}(?:left |right )?(?:arm|hand"
             r"|fist)(?: straight)? {high}|(?:rais|lift)\w* (?:up )?{the}(?:left |right )?(?:arm|hand"
             r"|fist)\b(?! (?:to the (?:side|front)|forward|out|in front))|(?:left|right) (?:arm|hand"
-            r"|fist) (?:\w+ ){0,2}(?:up\b|overhead|high|raised|in the air|above)|salut\w*|tennis serve"
+            r"|fist) (?:(?:is|being|was) )?(?:\w+ )?(?:up\b|overhead|high|raised|in the air|above)"
+            r"|salut\w*|tennis serve"
             r"|\bserv(?:e|es|ing)\b|overhand|hook shot|lay ?up|\bdunk\w*|hailing|(?:arm|hand|fist) raised"
             r"|high ?five\w*|(?:arm|hand|fist) (?:\w+ )?(?:up\b|aloft)|pitch(?:es|ing)? (?:a|the) ball"
             r"|spik\w+ (?:a|the) ball"
@@ -35,8 +37,10 @@ ARMS_UP = (  # the first that matches
     (
         "none",
         (
-            r"(?:lower|drop)\w* (?:{the2}(?:left |right )?(?:arms?|hands?)|them|it)\b(?! (?:to the floor|on))"
-            r"|(?:arms|hands) (?:\w+ )?(?:at|by|to) {the2}sides?\b"
+            r"^(?:(?:the|a|he|she|they|person|man|woman|someone|somebody|figure) ){0,3}(?:lower"
+            r"|drop)\w* (?:{the2}(?:left |right )?(?:arms?|hands?)|them|it)\b(?! (?:to the floor"
+            r"|on))(?!.*(?:,|\band\b|\bthen\b))"
+            r"|(?:arms|hands) (?:hanging |down |still |resting |held )?(?:at|by|down to) {the2}sides?\b"
         ),
     ),
 )

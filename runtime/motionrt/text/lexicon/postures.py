@@ -37,7 +37,7 @@ POSTURE_STATES = (  # posture name -> words that somebody is or gets into it
             r"|something|low|out)\b| back\b)|\bfall(?:s|ing)?\b(?! (?:in|into|back into"
             r"|asleep standing))(?: (?:\w+ )?(?:down|over|flat|to the (?:ground|floor)|on))?|\bfell\b"
             r"|collaps\w*|knocked (?:down|out|over)|\bsleep\w*|on (?:the|his|her|their) (?:back|stomach"
-            r"|belly|side of)\b|{unseated}on (?:the|his|her|their) (?:floor|ground)\b|\bprone\b|supine"
+            r"|belly|side of)\b|{unseated}on (?:the|his|her|their) floor\b|\bprone\b|supine"
             r"|faint\w*|\bsit ?ups?\b|\bdies?\b|\bdying\b"
         ),
     ),
@@ -52,7 +52,7 @@ POSTURE_STATES = (  # posture name -> words that somebody is or gets into it
     (
         "crouching",
         (
-            r"\bsquat\w*|\bcrouch\w*|\bduck(?:s|ing|ed)?\b|knee bends?|bent knees|low stance"
+            r"\bsquat\w*|\bcrouch\w*|\bduck(?:s|ing|ed)?\b|knee bends?|\bknees bend\w*|bent knees|low stance"
             r"|bend\w* (?:the|his|her|their|both|at the) knees|hunker\w*|\blung(?:e|es|ing)\b|sneak\w*"
             r"|horse stance|limbo"
         ),

@@ -21,7 +21,8 @@ _POSSESSED = r"(?:(?:the|a|an|his|her|their|its) )?"
 _WAY = (
     r"(?= (?:\w+ly )?(?:forwards?|away|off|ahead|on|down|across|along|past|towards?|out|around|through"
     r"|over|up|home|from|to)\b"
-    r"|$|,| as | very | really )"
+    r"|$|,| as | very | really | in (?:panic|terror|fear|a hurry)\b| for (?:the |his |her |their )?(?:life"
+    r"|lives|dear life)\b)"
 )
 _LIGHT = (
     r"(?:(?:a|an|one|some|the|his|her|their) )?(?:quick |big |small |little |good |nice |hard |high |low "
@@ -48,7 +49,13 @@ WORDING: tuple[tuple[str, str], ...] = (
         "",
     ),
     (r"\btowards? (?:the |his |her |their )?(left|right)\b", "to the $1"),
-    (r"\b(left|right)wards?\b", "to the $1"),
+    (r"\b(left|right)wards?(?=$|,|\.| (?:and|then|while|by|in|for|with|on)\b)", "to the $1"),
+    (r"\b(in place|on the spot), (?=to the (?:left|right)\b)", "$1 "),
+    (
+        r"\bon (?:the |his |her |one )?(?:heels?|toes?|balls?(?: of (?:the |his |her )?(?:foot"
+        r"|feet))?)(?= (?:to the )?(?:left|right)\b)",
+        "",
+    ),
     (r"\bto (?:the |his |her |their )?(left|right)(?: hand)? side\b", "to the $1"),
     (r"\btowards? (?:the )?(sky|ceiling|stars)\b", "to the $1"),
     (r"\bpalm\b", "hand"),
@@ -83,9 +90,12 @@ WORDING: tuple[tuple[str, str], ...] = (
     (r"\bsteps? aside\b", "steps to the side"),
     (r"\bdrag(?:s|ging)? (?:the |his |her |their )?feet\b|\bdawdl(?:e|es|ing)\b", "walks slowly"),
     (
-        r"\b(?:go|goes|going|walks?|walking|runs?|heads?|comes?|moves?) (up|down) (?:the |a "
-        r"|some )?(?:\w+ )?(?:steps|staircase|stairway|flight of steps)\b"
-        r"|\b(?:ascend(?:s|ing)?|mount(?:s|ing)?) (?:the |a |some )?(?:steps|stairs|staircase|ladder)\b",
+        r"\b(?:go|goes|going|walks?|walking|runs?|heads?|comes?|moves?) (up|down) (?:(?:the |a "
+        r"|some )(?:\w+ )?)?(?:steps|staircase|stairway|flight of steps)\b",
+        "climbs $1 the stairs",
+    ),
+    (
+        r"\b(?:ascend(?:s|ing)?|mount(?:s|ing)?) (?:the |a |some )?(?:steps|stairs|staircase|ladder)\b",
         "climbs up the stairs",
     ),
     (r"\b(?:descend(?:s|ing)?) (?:the |a |some )?(?:steps|stairs|staircase|ladder)\b", "climbs down the stairs"),
@@ -108,12 +118,12 @@ WORDING: tuple[tuple[str, str], ...] = (
         r"(?<!without )(?<!not )(?<!never )\b(?:go|goes|going|proceeds?|proceeding|progress(?:es)?|heads?"
         r"|heading|travels?|travelling"
         r"|moves?|moving|continues?)"
-        r" (?:\w+ly )?(?:on )?(?=forwards?\b|ahead\b|straight\b|backwards?\b|in reverse\b|onwards?\b)",
-        "walks ",
+        r" (\w+ly )?(?:on )?(?=forwards?\b|ahead\b|straight\b|backwards?\b|in reverse\b|onwards?\b)",
+        "walks $1",
     ),
     (
-        r"(?<!in )(?<!a )(?<!the )\brevers(?:e|es|ing)\b(?! (?:direction|course|the|his|her|punch|lunge|kick"
-        r"|turn|back))",
+        r"(?<!in )(?<!a )(?<!the )\brevers(?:es?|ing)\b(?=$| (?:slowly|quickly|carefully|cautiously|gently|fast|one|two"
+        r"|three|four|five|\d|a (?:few|couple|little|bit|short|meter|metre|step)|away|out|from|straight|gradually)\b)",
         "walks backward",
     ),
     (r"\b(?:in|to|into|towards?) (?:the )?(forward|backward)s? direction\b", "$1"),
@@ -225,7 +235,7 @@ WORDING: tuple[tuple[str, str], ...] = (
         r"|upright)\b",
         "gets up",
     ),
-    (r"\brises?(?=$|,|\.| (?:and|then|again|slowly|quickly)\b)", "stands up"),
+    (r"(?:^|(?<=then )|(?<=, ))rises?(?=$|,|\.| (?:then|again|and (?:walk|run|leav|turn)))", "stands up"),
     (r"\bfall(s|ing)? (?:over )?(?:backwards?|forwards?|sideways)\b", "fall$1 over"),
     (
         r"\b(?:topples?|tumbles?|crash(?:es)?|slumps?) (?:over|down|to the (?:floor|ground))\b"
