@@ -16,8 +16,10 @@ from motionrt.bench.nodes import Work, read_work, work_of
 from motionrt.bench.onnx_bytes import FLOAT, INT32, UINT8, product_model
 from motionrt.bench.peaks import SHAPES, machine_peaks
 from motionrt.bench.profiling import BenchmarkWork, benchmark_work, profile
+from motionrt.bench.workload import TEXTS
 from motionrt.errors import InvalidInputError
 from motionrt.models.sessions import quiet_options
+from motionrt.text import clauses
 
 PEAKS = {
     "fp32_gmacs": {"large": 50.0, "small": 10.0},
@@ -142,8 +144,10 @@ def test_a_benchmark_is_profiled_model_by_model() -> None:
     assert 0 < found.all.run_seconds < found.wall_s
 
 
-def test_the_denoiser_of_a_motion_runs_twelve_times() -> None:
-    assert benchmark_work("generate", str(TINY_GENERATORS), 1, seconds=0.01).models["motion_denoiser"].runs == 12
+def test_the_denoiser_of_a_motion_runs_twelve_times_for_each_act_of_its_text() -> None:
+    acts = len(clauses(TEXTS[0]))
+    runs = benchmark_work("generate", str(TINY_GENERATORS), 1, seconds=0.0).models["motion_denoiser"].runs
+    assert (acts, runs) == (2, 24)
 
 
 def test_a_profile_is_json_and_names_functions() -> None:
