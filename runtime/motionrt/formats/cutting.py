@@ -7,13 +7,11 @@ import shutil
 from collections.abc import Callable
 from pathlib import Path
 
-import numpy as np
-
 from motionrt.errors import FormatError
 from motionrt.formats.acclaim.asf_search import find_asf
 from motionrt.formats.atomic import write_atomically, write_bytes
 from motionrt.formats.text import read_text
-from motionrt.untrusted.npz import read_arrays
+from motionrt.untrusted.npz import read_arrays, write_arrays
 
 Span = tuple[int, int]
 
@@ -83,7 +81,7 @@ def _cut_npz(source: Path, out: Path, span: Span, frames: int, _fps: float) -> N
     skip = _before(source, there, frames)
     part = slice(skip + span[0], skip + span[1])
     cut = {name: a[part] if a.ndim and len(a) == there else a for name, a in arrays.items()}
-    write_atomically(out, lambda file: np.savez(file, allow_pickle=False, **cut))
+    write_atomically(out, lambda file: write_arrays(file, cut))
 
 
 _CUTTERS: dict[str, Callable[[Path, Path, Span, int, float], None]] = {

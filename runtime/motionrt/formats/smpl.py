@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import BinaryIO
 
 import numpy as np
 import numpy.typing as npt
@@ -21,7 +20,7 @@ from motionrt.motion.skeleton import SMPL24
 from motionrt.rigs.clip import RigClip
 from motionrt.untrusted.arguments import check_kind, checked_up
 from motionrt.untrusted.files import as_path
-from motionrt.untrusted.npz import read_arrays
+from motionrt.untrusted.npz import read_arrays, write_arrays
 
 Array = npt.NDArray[np.float64]
 
@@ -159,7 +158,7 @@ def write_npz(motion: Motion, path: str | Path) -> Path:
         "betas": np.zeros(16),
         "gender": np.array("neutral"),
     }
-    return write_atomically(path, lambda file: _save(file, arrays))
+    return write_atomically(path, lambda file: write_arrays(file, arrays, compressed=True))
 
 
 def _smplh_poses(rotations: npt.NDArray[np.float32]) -> Array:
@@ -173,10 +172,6 @@ def _smplh_poses(rotations: npt.NDArray[np.float32]) -> Array:
         fingers = [BODY_JOINTS + 15 * hand + base for base in _FINGER_BASES]
         poses[:, fingers] = vectors[:, BODY_JOINTS + hand, None]
     return poses.reshape(len(turned), _SMPLH_WIDTH)
-
-
-def _save(file: BinaryIO, arrays: dict[str, npt.NDArray[np.generic]]) -> None:
-    np.savez_compressed(file, allow_pickle=False, **arrays)
 
 
 def _read_arrays(path: Path) -> dict[str, npt.NDArray[np.generic]]:

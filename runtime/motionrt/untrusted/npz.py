@@ -8,7 +8,7 @@ import struct
 import tokenize
 import zipfile
 import zlib
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import IO, Any
 
@@ -41,6 +41,18 @@ BROKEN = (
 
 _MEMBERS, _NAME, _HEADER = 10_000, 200, 10_000
 _PIECE = 1 << 22  # bytes that are unpacked at once
+
+
+def write_arrays(file: IO[bytes], arrays: Mapping[str, npt.NDArray[Any]], *, compressed: bool = False) -> None:
+    """An npz file of arrays of any names; NumPy's own writer takes some of them for its options.
+
+    Raises:
+        ValueError: an array of objects.
+    """
+    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED if compressed else zipfile.ZIP_STORED) as archive:
+        for name, array in arrays.items():
+            with archive.open(f"{name}.npy", "w", force_zip64=True) as member:
+                np.lib.format.write_array(member, np.asanyarray(array), allow_pickle=False)
 
 
 def read_arrays(path: Path, fail: Fail, names: Collection[str] | None = None) -> tuple[Arrays, list[str]]:
