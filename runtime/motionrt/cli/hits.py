@@ -78,7 +78,12 @@ def outcome(hits: Sequence[Hit], arguments: argparse.Namespace) -> int:
     wanted = [
         f"{name} {given}" for name, given in (("--save", arguments.save), ("--pictures", arguments.pictures)) if given
     ]
-    if hits or not wanted:
+    return 0 if hits else nothing_written(wanted)
+
+
+def nothing_written(wanted: Sequence[str]) -> int:
+    """Say which options write nothing, since nothing was found; the exit code: 1 where there are some."""
+    if not wanted:
         return 0
     complain(f"motionrt: error: nothing was found, so nothing is written for {' and '.join(wanted)}")
     return NOTHING_FOUND

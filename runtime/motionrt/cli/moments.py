@@ -8,8 +8,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from motionrt.cli.console import complain, print_json, print_table, say, working
-from motionrt.cli.hits import NOTHING_FOUND, tell_saved
+from motionrt.cli.console import print_json, print_table, say, working
+from motionrt.cli.hits import nothing_written, tell_saved
 from motionrt.cli.options import add_json, add_models, add_text_tower, command, runtime
 from motionrt.cli.plot import curve_lines
 from motionrt.cli.reading import INPUTS, add_reading, read_motion
@@ -94,10 +94,7 @@ def _told_nothing(arguments: argparse.Namespace, nearest: Sequence[Moment]) -> i
     for moment in nearest:
         span = f"{moment.start_s:.2f} to {moment.end_s:.2f} s"
         say(f"no moment fits '{arguments.text}'; the nearest is {span}, {moment.score:.3f} (--min-score -1 lists it)")
-    if arguments.save is None:
-        return 0
-    complain(f"motionrt: error: nothing was found, so nothing is written for --save {arguments.save}")
-    return NOTHING_FOUND
+    return nothing_written([] if arguments.save is None else [f"--save {arguments.save}"])
 
 
 def _frames(text: str) -> tuple[int, ...]:
