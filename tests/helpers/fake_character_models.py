@@ -76,6 +76,7 @@ class FakeCharacterModels:
         *,
         floor: float | None = 0.0,
         tolerance_cm: float = 5.0,
+        surfaces: Any = None,
     ) -> Any:
         if max(point[1] for point in keypoints.values()) > REACH:
             raise ReachError("no plausible pose meets the keypoints", dict.fromkeys(keypoints, 99.0))

@@ -16,6 +16,8 @@ from motionrt.models.walknet import WalkModel
 from motionrt.motion import Motion
 
 if TYPE_CHECKING:
+    import numpy.typing as npt
+
     from motionrt.locomotion.posing import PoseSolution
     from motionrt.locomotion.posing.body import Prior
     from motionrt.models.sessions import Sessions
@@ -52,6 +54,7 @@ class CharacterModels(Protocol):
         *,
         floor: float | None = 0.0,
         tolerance_cm: float = TOLERANCE_CM,
+        surfaces: npt.ArrayLike | None = None,
     ) -> PoseSolution:
         """The pose that meets keypoints; see :func:`motionrt.locomotion.posing.solve_pose`."""
 
@@ -109,8 +112,11 @@ class OnnxCharacterModels:
         *,
         floor: float | None = 0.0,
         tolerance_cm: float = TOLERANCE_CM,
+        surfaces: npt.ArrayLike | None = None,
     ) -> PoseSolution:
         """See :func:`motionrt.locomotion.posing.solve_pose`."""
         from motionrt.locomotion.posing import solve_pose
 
-        return solve_pose(keypoints, self.prior, heading=heading, floor=floor, tolerance_cm=tolerance_cm)
+        return solve_pose(
+            keypoints, self.prior, heading=heading, floor=floor, tolerance_cm=tolerance_cm, surfaces=surfaces
+        )

@@ -35,10 +35,12 @@ _LIMBS = {
 _FEET = ("left_ankle", "right_ankle", "left_foot", "right_foot")
 
 Points = Mapping[str, Sequence[float]]
+Hold = tuple[int, int, Points]
+"""First frame, the one behind the last, and {joint: (x, y, z) metres} of a held pose."""
 Values = npt.NDArray[np.float64]
 
 
-def hold_points(motion: Motion, holds: Sequence[tuple[int, int, Points]]) -> Motion:
+def hold_points(motion: Motion, holds: Sequence[Hold]) -> Motion:
     """The motion with the keypoints of its holds met.
 
     Args:
@@ -51,18 +53,18 @@ def hold_points(motion: Motion, holds: Sequence[tuple[int, int, Points]]) -> Mot
         own = {name: point for name, point in points.items() if name not in _FEET}
         if own:
             first, last = max(0, start - FADE), min(motion.frames, end + FADE)
-            weight = _weight(np.arange(first, last), start, end)
+            weight = held_weight(np.arange(first, last), start, end)
             rotations[first:last], root[first:last] = _met(rotations[first:last], root[first:last], own, weight)
     return replace(motion, rotations=rotations.astype(np.float32), root=root.astype(np.float32))
 
 
-def _weight(now: npt.NDArray[np.int_], start: int, end: int) -> Values:
+def held_weight(now: npt.NDArray[np.int_], start: int, end: int) -> Values:
     """1 in a hold, fading to 0 around it."""
     outside = np.minimum(np.maximum(np.maximum(start - now, now - (end - 1)), 0) / (FADE + 1), 1.0)
     return np.asarray((1 - outside) ** 2 * (1 + 2 * outside))
 
 
-def _with_feet(rotations: Values, root: Values, holds: Sequence[tuple[int, int, Points]]) -> Values:
+def _with_feet(rotations: Values, root: Values, holds: Sequence[Hold]) -> Values:
     """Legs bent so that feet are at their keypoints while poses are held."""
     out, now = rotations, np.arange(len(root))
     for name in _FEET:
@@ -70,11 +72,11 @@ def _with_feet(rotations: Values, root: Values, holds: Sequence[tuple[int, int, 
         for start, end, point in spans:
             first, last = max(0, start - FADE), min(len(root), end + FADE)
             part, place = out[first:last], root[first:last]
-            weight = _weight(now[first:last], start, end)
-            aim = _drawn(_places(part, place)[0], name, point, weight)
-            far = np.linalg.norm(_places(part, place)[0][:, SMPL24.index(name)] - point, axis=1)
+            weight = held_weight(now[first:last], start, end)
+            aim = _drawn(places(part, place)[0], name, point, weight)
+            far = np.linalg.norm(places(part, place)[0][:, SMPL24.index(name)] - point, axis=1)
             aim[:, 1] += LIFTED * np.sin(np.pi * weight) * np.clip(far / FAR - 1, 0, 1) * (weight < 1)
-            out = np.concatenate([out[:first], _reaching(part, place, _LIMBS[name], aim, pole_axis=2), out[last:]])
+            out = np.concatenate([out[:first], reaching(part, place, _LIMBS[name], aim, pole_axis=2), out[last:]])
     return out.copy()
 
 
@@ -92,7 +94,7 @@ def _spans(holds: list[tuple[int, int, Sequence[float]]]) -> list[tuple[int, int
 
 def _met(rotations: Values, root: Values, points: Points, weight: Values) -> tuple[Values, Values]:
     """Frames (F) whose joints are drawn to the points, each by its ``weight`` (F,)."""
-    before = _places(rotations, root)[0]
+    before = places(rotations, root)[0]
     standing = before[:, [leg[2] for leg in LEG_JOINTS]]
     aims = {name: _drawn(before, name, point, weight) for name, point in points.items() if name in SMPL24.names}
     moved = np.zeros_like(root)
@@ -101,7 +103,7 @@ def _met(rotations: Values, root: Values, points: Points, weight: Values) -> tup
     out = rotations
     for _ in range(ROUNDS):
         out = _limbs(rotations, root + moved, standing, aims)
-        joints = _places(out, root + moved)[0]
+        joints = places(out, root + moved)[0]
         missed = [aims[name] - joints[:, SMPL24.index(name)] for name in aims if name in _LIMBS]
         if not missed or "pelvis" in aims:
             break
@@ -119,17 +121,17 @@ def _limbs(rotations: Values, root: Values, standing: Values, aims: Mapping[str,
     """Arms bent so that they reach their aims, legs so that feet stay where they stood."""
     out = rotations.copy()
     for number, leg in enumerate(LEG_JOINTS):
-        out = _reaching(out, root, (*leg[:3], leg[2]), standing[:, number], pole_axis=2)
+        out = reaching(out, root, (*leg[:3], leg[2]), standing[:, number], pole_axis=2)
     for side in ("left", "right"):
         named = next((f"{side}_{end}" for end in ("hand", "wrist") if f"{side}_{end}" in aims), None)
         if named:
-            out = _reaching(out, root, _LIMBS[named], aims[named], pole_axis=None)
+            out = reaching(out, root, _LIMBS[named], aims[named], pole_axis=None)
     return out
 
 
-def _reaching(rotations: Values, root: Values, chain: Sequence[int], aim: Values, pole_axis: int | None) -> Values:
+def reaching(rotations: Values, root: Values, chain: Sequence[int], aim: Values, pole_axis: int | None) -> Values:
     """One limb whose end, carried along by its third joint, comes to ``aim`` (F, 3)."""
-    joints, turned = _places(rotations, root)
+    joints, turned = places(rotations, root)
     upper, middle, last, end = chain
     target = aim - (joints[:, end] - joints[:, last])
     bones = joints[:, [upper, middle, last]]
@@ -142,7 +144,8 @@ def _reaching(rotations: Values, root: Values, chain: Sequence[int], aim: Values
     return out
 
 
-def _places(rotations: Values, root: Values) -> tuple[Values, Values]:
+def places(rotations: Values, root: Values) -> tuple[Values, Values]:
+    """Global joints ``(F, 24, 3)`` and rotations ``(F, 24, 3, 3)``."""
     joints, turned = fk(rotations, root, SMPL24.offsets.astype(np.float64), SMPL24.parents)
     return joints.astype(np.float64), turned.astype(np.float64)
 

@@ -9,12 +9,13 @@ from pathlib import Path as FilePath
 
 import numpy as np
 
+from motionrt.locomotion.clearing import clear_forearms
 from motionrt.locomotion.held_points import hold_points
 from motionrt.locomotion.path import Path
 from motionrt.locomotion.terrain import Heights, Terrain, on_plane, raised, smoothed
 from motionrt.locomotion.uneven import feet_on_ground
 from motionrt.metrics.locomotion import end_error, path_distances
-from motionrt.metrics.penetration import penetration
+from motionrt.metrics.penetration import Surfaces, penetration
 from motionrt.metrics.walk_report import LocomotionMeasures
 from motionrt.motion import SMPL24, Motion
 from motionrt.motion.feet.lock import lock_feet, planted_toes
@@ -161,6 +162,8 @@ def performance_of(
     if foot_lock and under is not None:
         motion = feet_on_ground(motion, planted_toes(plane), ground, under)
     motion = hold_points(motion, holds) if foot_lock else motion
+    if surfaces is not None and len(surfaces):
+        motion = clear_forearms(motion, Surfaces(surfaces.astype(np.float64)), holds)
     pairs = zip(segments, aims, strict=True)
     measured = tuple(_measured(plane if isinstance(aim, Motion) else motion, segment, aim) for segment, aim in pairs)
     return Performance(motion, measured, tuple(aim for aim in aims if isinstance(aim, Path)), ground, surfaces)

@@ -23,6 +23,7 @@ from motionrt.locomotion.path import Path
 from motionrt.locomotion.path_following import Pace, Progress
 from motionrt.locomotion.performance import Performance
 from motionrt.motion import SMPL24, Motion
+from motionrt.motion.skeleton import FloatArray
 from motionrt.motion.transforms import TOE_JOINTS
 from motionrt.untrusted.arguments import check_flags, check_kind, listed
 
@@ -67,6 +68,7 @@ class Performer:
             scene = ways_through(cloud)
         self.character = Character(models, start, scene, pace or Pace(), seed, level)
         self.cloud, self._progress, self._generate, self._seed = cloud, progress, generate, seed
+        self._surfaces = None if cloud is None else cloud.obstacles()
 
     def perform(self, actions: Sequence[Action], *, stop: bool = True, foot_lock: bool = True) -> Performance:
         """Do everything, one after the other.
@@ -97,8 +99,7 @@ class Performer:
                 if len(actions) > 1:
                     error.args = (f"step {index + 1} ('{action.name}'): {error}", *error.args[1:])
                 raise
-        surfaces = None if self.cloud is None else self.cloud.obstacles()
-        return self.character.performance(foot_lock=foot_lock, surfaces=surfaces)
+        return self.character.performance(foot_lock=foot_lock, surfaces=self._surfaces)
 
     def _do(self, action: Action, walks_on: bool, progress: Progress) -> None:
         if not isinstance(action, Wait):
@@ -142,7 +143,7 @@ class Performer:
         character = self.character
         level = character.terrain.at(_foothold(action), 0.0)
         lowered = {joint: (x, y - level, z) for joint, (x, y, z) in action.keypoints.items()}
-        pose = character.models.pose(lowered, action.heading).motion
+        pose = character.models.pose(lowered, action.heading, surfaces=self._surfaces_from(level)).motion
         root, facing = place_of(pose), facing_of(pose)
         gate = action.approach or root
         if apart(root, character.place) > NEAR:
@@ -160,7 +161,7 @@ class Performer:
         at = (action.at[0], action.at[1] - level, action.at[2])
         keypoints, facing, gate = seat_keypoints(at, action.edge, 0.0)
         seat, pose = (
-            character.models.pose(keypoints, facing).motion,
+            character.models.pose(keypoints, facing, surfaces=self._surfaces_from(level)).motion,
             lying(character.models.standing, at, action.heading),
         )
         if apart(gate, character.place) > NEAR:
@@ -189,6 +190,10 @@ class Performer:
             return Lie(found.bed.at, found.bed.edge, found.bed.heading, action.hold_s, found.name)
         approach = (float(found.approach[0]), float(found.approach[1]))
         return Act(keypoints, found.heading, action.hold_s, approach, found.name)
+
+    def _surfaces_from(self, level: float) -> FloatArray | None:
+        """What limbs shall keep out of, seen from ground that is ``level`` metres high."""
+        return None if self._surfaces is None else self._surfaces - np.array([0.0, level, 0.0], np.float32)
 
     def _part(self, index: int, count: int, name: str) -> Progress:
         """Progress of one action of ``count``."""

@@ -14,6 +14,7 @@ import numpy.typing as npt
 
 from motionrt.errors import InvalidInputError
 from motionrt.motion.skeleton import SMPL24
+from motionrt.untrusted.arguments import checked_array
 
 THICKNESS = {
     "thigh": 0.07,
@@ -37,6 +38,20 @@ _BONES = (
 )  # fmt: skip
 
 Floats = npt.NDArray[np.float64]
+
+
+def _along_bones() -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64], Floats, Floats]:
+    """Of every ball: the joints that its bone leads from and to, which share of the way it is at, and its radius."""
+    rest, rows = SMPL24.rest_positions, []
+    for first, last, kind in _BONES:
+        start, end = SMPL24.index(first), SMPL24.index(last)
+        count = max(2, round(float(np.linalg.norm(rest[end] - rest[start])) / _ALONG))
+        rows += [(start, end, (k + 0.5) / count, THICKNESS[kind]) for k in range(count)]
+    starts, ends, shares, radii = (np.array(column) for column in zip(*rows, strict=True))
+    return starts, ends, shares, radii
+
+
+_STARTS, _ENDS, _SHARES, _RADII = _along_bones()
 
 
 @dataclass(frozen=True)
@@ -81,33 +96,42 @@ def penetration(positions: npt.ArrayLike, surfaces: npt.ArrayLike) -> Penetratio
 
 def penetration_depths(positions: npt.ArrayLike, surfaces: npt.ArrayLike) -> Floats:
     """``(F,)`` centimetres: how deep the deepest limb is inside a surface in each frame, 0 where none is."""
-    joints, cloud = np.asarray(positions, dtype=np.float64), np.asarray(surfaces, dtype=np.float64)
+    joints, cloud = np.asarray(positions, dtype=np.float64), checked_surfaces(surfaces)
     if joints.ndim != 3 or joints.shape[1:] != (len(SMPL24), 3) or not len(joints):
         raise InvalidInputError(f"positions must have the shape (F, {len(SMPL24)}, 3), not {joints.shape}")
-    if cloud.ndim != 2 or cloud.shape[1] != 3:
-        raise InvalidInputError(f"surfaces must be points (N, 3), not {cloud.shape}")
-    if not np.isfinite(joints).all() or not np.isfinite(cloud).all():
-        raise InvalidInputError("positions and surfaces must be finite numbers")
+    if not np.isfinite(joints).all():
+        raise InvalidInputError("positions must be finite numbers")
     if not len(cloud):
         return np.zeros(len(joints))
-    balls, thick = _balls(joints)
-    away = _Surfaces(cloud).distance(balls.reshape(-1, 3), float(thick.max())).reshape(len(joints), -1)
-    return np.asarray(100 * np.maximum(thick - away, 0.0).max(axis=1))
+    return np.asarray(100 * ball_depths(joints, Surfaces(cloud)).max(axis=1))
 
 
-def _balls(joints: Floats) -> tuple[Floats, Floats]:
-    """``(F, B, 3)`` middles of the balls along all bones, and ``(B,)`` their radii."""
-    places, radii = [], []
-    for first, last, kind in _BONES:
-        start, end = joints[:, SMPL24.index(first)], joints[:, SMPL24.index(last)]
-        count = max(2, round(float(np.linalg.norm(end - start, axis=1).mean()) / _ALONG))
-        share = (np.arange(count) + 0.5) / count
-        places.append(start[:, None] + share[:, None] * (end - start)[:, None])
-        radii += [THICKNESS[kind]] * count
-    return np.concatenate(places, axis=1), np.array(radii)
+def checked_surfaces(surfaces: npt.ArrayLike) -> Floats:
+    """Points ``(N, 3)`` as float64.
+
+    Raises:
+        InvalidInputError: another shape, or numbers that are not finite.
+    """
+    cloud = checked_array(surfaces, "surfaces", "points (N, 3) in metres")
+    if cloud.ndim != 2 or cloud.shape[1] != 3 or not np.isfinite(cloud).all():
+        raise InvalidInputError(f"surfaces must be finite points (N, 3) in metres, not an array of shape {cloud.shape}")
+    return cloud
 
 
-class _Surfaces:
+def ball_depths(joints: Floats, surfaces: Surfaces) -> Floats:
+    """``(F, B)`` metres: how deep each ball along the bones of joints ``(F, 24, 3)`` is inside a surface."""
+    balls, thick = limb_balls(joints)
+    away = surfaces.distance(balls.reshape(-1, 3), float(thick.max())).reshape(balls.shape[:2])
+    return np.maximum(thick - away, 0.0)
+
+
+def limb_balls(joints: Floats) -> tuple[Floats, Floats]:
+    """``(F, B, 3)`` middles of the balls along all bones of joints ``(F, 24, 3)``, and ``(B,)`` their radii."""
+    start, end = joints[:, _STARTS], joints[:, _ENDS]
+    return start + _SHARES[:, None] * (end - start), _RADII
+
+
+class Surfaces:
     """Points as pieces of planes: between the points of a wall there is wall."""
 
     def __init__(self, cloud: Floats) -> None:
@@ -124,17 +148,25 @@ class _Surfaces:
 
     def distance(self, places: Floats, most: float) -> Floats:
         """``(N,)`` metres from places ``(N, 3)``; infinite where it is more than ``most`` for sure."""
-        parts = [self._part(places[i : i + _CHUNK], most) for i in range(0, len(places), _CHUNK)]
-        return np.concatenate(parts)
+        return np.asarray(self.away(places, most)[0])
 
-    def _part(self, places: Floats, most: float) -> Floats:
+    def away(self, places: Floats, most: float) -> tuple[Floats, Floats]:
+        """The same, and ``(N, 3)`` the directions of length 1 that lead away from the surface; 0 where none is near."""
+        parts = [self._part(places[i : i + _CHUNK], most) for i in range(0, len(places), _CHUNK)]
+        distances, directions = zip(*parts, strict=True)
+        return np.concatenate(distances), np.concatenate(directions)
+
+    def _part(self, places: Floats, most: float) -> tuple[Floats, Floats]:
         reach = most + float(self._gap.max(initial=0.0))
         away, near = self._tree.query(places, distance_upper_bound=reach)
-        out, found = np.asarray(away, dtype=np.float64), np.flatnonzero(np.isfinite(away))
+        out, ways = np.asarray(away, dtype=np.float64), np.zeros_like(places)
+        found = np.flatnonzero(np.isfinite(away))
         nearest = near[found]
         offset = places[found] - self._cloud[nearest]
-        across = np.abs((offset * self._normal[nearest]).sum(axis=1))
+        across = (offset * self._normal[nearest]).sum(axis=1)
         beside = np.sqrt(np.maximum((offset**2).sum(axis=1) - across**2, 0.0))
         fits = self._plane[nearest] & (beside <= self._gap[nearest])
-        out[found[fits]] = across[fits]
-        return out
+        out[found[fits]] = np.abs(across[fits])
+        offset[fits] = np.sign(across[fits])[:, None] * self._normal[nearest[fits]]
+        ways[found] = offset / np.maximum(np.linalg.norm(offset, axis=1, keepdims=True), 1e-9)
+        return out, ways

@@ -12,6 +12,8 @@ from motionrt.locomotion.crowd import SPEED
 from motionrt.services.service import Service
 
 if TYPE_CHECKING:
+    import numpy.typing as npt
+
     from motionrt.locomotion.actions import Action
     from motionrt.locomotion.arguments import PathLikes, SceneLike, StartLike
     from motionrt.locomotion.character_models import CharacterModels
@@ -175,6 +177,7 @@ class Locomotion(Service):
         *,
         floor: float | None = 0.0,
         tolerance_cm: float = 5.0,
+        surfaces: npt.ArrayLike | None = None,
     ) -> PoseSolution:
         """The pose that meets keypoints; see :func:`motionrt.locomotion.posing.solve_pose`.
 
@@ -183,11 +186,12 @@ class Locomotion(Service):
             heading: radians from +Z towards +X that the body should face; by default what the keypoints suggest.
             floor: height of the ground, metres; None for none.
             tolerance_cm: how far any keypoint may be missed.
+            surfaces: points ``(N, 3)`` on everything that limbs shall keep out of, metres, without the ground.
 
         Raises:
             ReachError: no pose does; the message says by how many centimetres each keypoint is missed.
         """
-        return self.character_models.pose(keypoints, heading, floor=floor, tolerance_cm=tolerance_cm)
+        return self.character_models.pose(keypoints, heading, floor=floor, tolerance_cm=tolerance_cm, surfaces=surfaces)
 
     def transition(self, before: Motion, pose: Motion, goal: Goal | None = None, *, held: bool = False) -> Motion:
         """The two seconds (60 frames, 30 fps) that lead from the end of a motion to a pose, which is their last frame.

@@ -1,6 +1,6 @@
 """What a pose is judged by: eq. 1 of the paper and what keeps a pose on the ground where the keypoints leave it open.
 
-    E(z, t, yaw) = sum_k |p_k(z, t, yaw) - target_k|^2 / reach^2 + |z|^2 + ground + balance + effort + heading
+    E(z, t, yaw) = sum_k |p_k(z, t, yaw) - target_k|^2 / reach^2 + |z|^2 + ground + balance + effort + heading + inside
 
 The pelvis' tilt comes from the latent, so of the root's orientation only the yaw is left to search for. Every term is a
 row of residuals, evaluated for a batch of poses at once: a Jacobian by finite differences costs one decoding of 1 + 32
@@ -15,6 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from motionrt.locomotion.posing.targets import Targets
+from motionrt.metrics.penetration import Surfaces, ball_depths
 from motionrt.motion import SMPL24
 from motionrt.motion.rotations import wrapped
 
@@ -65,6 +66,7 @@ class Weights:
     facing: float = 0.80
     rest: float = 0.12
     straight: float = 0.15
+    inside: float = 0.01
     prior: float = 1.0
     bound: float = 10.0
 
@@ -72,8 +74,8 @@ class Weights:
 class Objective:
     """Residuals of a batch of poses against targets."""
 
-    def __init__(self, targets: Targets, weights: Weights | None = None) -> None:
-        self.targets, self.weights = targets, weights or Weights()
+    def __init__(self, targets: Targets, weights: Weights | None = None, surfaces: Surfaces | None = None) -> None:
+        self.targets, self.weights, self.surfaces = targets, weights or Weights(), surfaces
         self._joints, self._suggested = list(targets.joints), targets.suggested
         self._feet = _standing_joints(targets)
         self._stands = not targets.has("pelvis", "left_hip", "right_hip") and targets.floor is not None
@@ -95,6 +97,8 @@ class Objective:
             parts += [self._unbalance(positions) / w.balance, self._bend(positions) / w.straight]
         if self._hands:
             parts.append(self._effort(positions) / w.rest)
+        if self.surfaces is not None:
+            parts.append(ball_depths(positions, self.surfaces) / w.inside)
         if self.targets.heading is not None:
             parts.append(wrapped(yaw - self.targets.heading)[:, None] / w.heading)
         elif self._suggested is not None:

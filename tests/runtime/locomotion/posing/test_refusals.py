@@ -88,3 +88,9 @@ def test_a_larger_tolerance_accepts_the_nearest_pose() -> None:
 def test_what_is_no_question_is_refused(keypoints: Any, options: Any, message: str) -> None:
     with pytest.raises(InvalidInputError, match=message):
         solve_pose(keypoints, PRIOR, **options)
+
+
+@pytest.mark.parametrize("surfaces", ["a wall", [1.0, 2.0], [[np.nan, 0.0, 0.0]], [[0.0, 1.0]], [None]])
+def test_surfaces_that_are_no_points_are_refused(surfaces: Any) -> None:
+    with pytest.raises(InvalidInputError, match="surfaces must be"):
+        solve_pose(FEET, PRIOR, surfaces=surfaces)

@@ -8,6 +8,7 @@ from scipy.spatial.transform import Rotation
 from toy_prior import ToyPrior, mirrored_latent, positions_by_scipy
 
 from motionrt.locomotion.posing import solve_pose
+from motionrt.metrics import penetration_depths
 from motionrt.motion import SMPL24
 
 HAND_AND_FEET = ("right_hand", "left_foot", "right_foot")
@@ -130,3 +131,22 @@ def test_a_solution_is_repeated_exactly() -> None:
     one, other = solve_pose(wanted, PRIOR), solve_pose(wanted, PRIOR)
     np.testing.assert_array_equal(one.motion.rotations, other.motion.rotations)
     assert one.iterations == other.iterations > 1
+
+
+def test_limbs_keep_out_of_surfaces_and_keypoints_are_met_all_the_same() -> None:
+    wanted = keypoints(pose(4), PELVIS_AND_FEET)
+    free = solve_pose(wanted, PRIOR, heading=0.0)
+    hand = free.motion.positions()[0, SMPL24.index("left_wrist")].astype(float)
+    across, up = np.meshgrid(np.arange(-0.3, 0.31, 0.05), np.arange(-0.3, 0.31, 0.05))
+    wall = np.stack([np.full(across.size, hand[0] + 0.01), hand[1] + up.ravel(), hand[2] + across.ravel()], axis=1)
+    clear = solve_pose(wanted, PRIOR, heading=0.0, surfaces=wall)
+    assert penetration_depths(free.motion.positions(), wall)[0] > 1.0
+    assert penetration_depths(clear.motion.positions(), wall)[0] < 0.5
+    assert clear.mean_error_cm < 1.0
+
+
+def test_surfaces_out_of_reach_change_nothing() -> None:
+    wanted = keypoints(pose(4), PELVIS_AND_FEET)
+    far = np.full((5, 3), 9.0)
+    one, other = solve_pose(wanted, PRIOR), solve_pose(wanted, PRIOR, surfaces=far)
+    np.testing.assert_array_equal(one.motion.rotations, other.motion.rotations)
