@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from pathlib import Path
+
 import numpy as np
 import pytest
 import torch
@@ -10,6 +13,7 @@ from scipy.spatial.transform import Rotation
 
 from motionrt.motion import SMPL24, Motion
 from motionrt.motion.features import ccf219
+from motionrt_training.checkpoint import load_any, save_release
 from motionrt_training.corpora.bend import bent, smoothed, wave
 from motionrt_training.corpora.walks import RUNS, WALKS, Variants, goal_headings, locomotion_parts, resped, variants
 from motionrt_training.networks.legs import feet
@@ -189,3 +193,19 @@ def test_training_lowers_the_loss(task: WalkTask) -> None:
         optimiser.step()
         losses.append(float(loss.detach()))
     assert np.mean(losses[-3:]) < 0.8 * losses[0]
+
+
+def test_a_teacher_says_how_plain_walks_go_on_and_the_data_everything_else(walk: Motion, tmp_path: Path) -> None:
+    pool = pool_of(iter([(walk, 1.0), (walk.mirror(), 1.0)]))
+    settings = WalkSettings(width=32, ff=32, batch=8, chain_after=0, chain=2, chunk=4, noise=0.0)
+    own = WalkTask(pool, pool, settings, seed=3)
+    kept = tmp_path / "kept.safetensors"
+    save_release(own.model, kept, {})
+    taught = WalkTask(pool, pool, replace(settings, teacher=str(kept), plain=1.0, stick=0.0, facing=0.0), seed=3)
+    taught.model.load_state_dict(load_any(kept, WalkNet).state_dict())
+    batch = taught.batch(2)
+    assert batch["plain"].all()
+    batch["wish"] = torch.zeros_like(batch["wish"])
+    assert taught.losses(taught.model, batch)["features"] < 1e-6
+    batch["plain"] = torch.zeros_like(batch["plain"])
+    assert taught.losses(taught.model, batch)["features"] > 0.01

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, cast
 
 import numpy as np
@@ -11,6 +12,7 @@ import torch.nn.functional as F
 from numpy.typing import NDArray
 from torch import Tensor
 
+from motionrt_training.checkpoint import load_any
 from motionrt_training.networks.kinematics import nearer_so3
 from motionrt_training.networks.legs import feet
 from motionrt_training.networks.walknet import FRAMES, WalkNet, seen_from, to_body, yawed
@@ -29,6 +31,7 @@ DRIFT, DRIFTED = 0.1, 0.015  # steady error of the history: part of the standard
 STILL = 0.02  # standard deviation of a column below which it counts as one that never changes
 JOINTS = slice(9, 216)  # columns of the joints below the pelvis
 SHORTEST = FRAMES + 6  # frames of a stretch that are left at the first frame of a window
+PLAIN = 0.8, 1.6  # m/s of somebody who walks straight ahead at an even pace
 
 
 @dataclass(frozen=True)
@@ -55,6 +58,8 @@ class WalkSettings:
     feet: float = option(0.02, "weight of the feet's positions and speeds")
     skate: float = option(0.05, "weight of the speed of planted toes")
     way: float = option(0.5, "weight of where the pelvis is over the ground: wishes are told there")
+    plain: float = option(0.0, "part of the windows that are drawn from plain walks ahead alone")
+    teacher: str | None = option(None, "trained weights whose plain walks ahead are to be kept; none has no teacher")
 
 
 class WalkTask:
@@ -69,6 +74,10 @@ class WalkTask:
         self.starts = train.starts(SHORTEST)
         weight = train.weight[self.starts].astype(np.float64)
         self.odds = np.cumsum(weight / weight.sum())
+        now = self.starts + FRAMES - 1
+        even = (train.weight[now] == 1.0) & (train.speed[now] > PLAIN[0]) & (train.speed[now] < PLAIN[1])
+        self.plain = even & ~train.aside[now]
+        self.teacher = load_any(Path(settings.teacher), WalkNet) if settings.teacher else None
         self._set_statistics()
         self.drifting = torch.ones(self.frames.shape[1])  # all columns but the place in the world, which is exact
         self.drifting[[216, 218]] = 0.0
@@ -77,7 +86,8 @@ class WalkTask:
     def batch(self, step: int) -> dict[str, Tensor]:
         """Windows (B, 30 + chain + 30, 219) in their goals' frames; frames behind a stretch's end do not count."""
         rng = np.random.default_rng((self.seed, step))
-        first = self.starts[np.searchsorted(self.odds, rng.random(self.settings.batch)).clip(max=len(self.odds) - 1)]
+        chosen = self._drawn(rng)
+        first = self.starts[chosen]
         kept = self._chunks(rng, step)
         length = 2 * FRAMES + int(sum(kept))
         at = first[:, None] + np.arange(length)
@@ -100,7 +110,16 @@ class WalkTask:
             "wish": self._wishes(rng, at[:, FRAMES - 1 : -FRAMES], goal, turn),
             "kept": torch.from_numpy(kept),
             "noise": torch.from_numpy(rng.random((len(first), 1, 1)).astype(np.float32)),
+            "plain": torch.from_numpy(self.plain[chosen]),
         }
+
+    def _drawn(self, rng: np.random.Generator) -> Ints:
+        """(B,) which of the windows' starts are taken."""
+        chosen = np.searchsorted(self.odds, rng.random(self.settings.batch)).clip(max=len(self.odds) - 1)
+        if self.settings.plain and self.plain.any():
+            even = rng.choice(np.flatnonzero(self.plain), len(chosen))
+            chosen = np.where(rng.random(len(chosen)) < self.settings.plain, even, chosen)
+        return chosen
 
     def _speeds(self, rng: np.random.Generator, now: Ints, goal: Ints) -> Floats:
         """(B,) m/s over the next second, or the highest on the way to the goal."""
@@ -145,6 +164,8 @@ class WalkTask:
         local, turn, place = to_body(history)
         true = seen_from(batch["window"][:, now - 1 : now + FRAMES], turn, place)
         target = true[:, 1:] + (local[:, -1:] - true[:, :1]) * self._fading(true)
+        if self.teacher is not None and batch["plain"].any():
+            target = self._taught(target, history, batch, turn, place)
         made = seen_from(net(history, batch["speed"], wish), turn, place)
         inside = batch["inside"][:, now : now + FRAMES].float() * self._weights(made)
         error = (
@@ -157,6 +178,15 @@ class WalkTask:
         way = (robust((made - target)[..., [216, 218]] / PLACE) * within).sum() / within.sum()
         loss = error + self.settings.feet * footing["feet"] + self.settings.skate * footing["skate"]
         return {"loss": loss + self.settings.way * way, "features": error, "way": way, **footing}
+
+    def _taught(self, target: Tensor, history: Tensor, batch: Any, turn: Tensor, place: Tensor) -> Tensor:
+        """Targets (B, 30, 219), of plain walks ahead what the teacher makes of the same history."""
+        plain, teacher = batch["plain"], cast("WalkNet", self.teacher).to(target.device)
+        with torch.no_grad():
+            made = teacher(history[plain], batch["speed"][plain])
+        out = target.clone()
+        out[plain] = seen_from(made, turn[plain], place[plain])
+        return out
 
     def _history(self, net: WalkNet, batch: Any) -> Tensor:
         """The first frames with noise, followed by what the network itself made of them."""
