@@ -15,7 +15,7 @@ from motionrt_training.networks.transnet import FRAMES as WINDOW
 from motionrt_training.networks.transnet import GOAL, PELVIS, SEED, TIME, TransNet, smoothed
 from motionrt_training.networks.walknet import FRAMES as HISTORY
 from motionrt_training.networks.walknet import GOAL as AIM
-from motionrt_training.networks.walknet import WalkNet
+from motionrt_training.networks.walknet import WISHES, WalkNet, turned_wish
 
 POSES = 3
 """Poses that TransNet sees of every frame: the filled one, and the visible ones before and behind it."""
@@ -112,21 +112,32 @@ class WalkNetGraph(nn.Module):
         self.change_rate = constant(moving / source.rate_std[order])
         self.moving, self.resting = constant(moving), constant((source.pose_mean * source.still)[order])
         scale = source.change_std[0, order] * moving
-        self.body = Body(source.body, torch.arange(HISTORY), columns, AIM + 1, order, scale, first=1, frames=1)
+        heard = AIM + 1 + WISHES * source.wishes
+        self.body = Body(source.body, torch.arange(HISTORY), columns, heard, order, scale, first=1, frames=1)
+        self.wishes = source.wishes
 
-    def forward(self, frames: Tensor, speed: Tensor) -> Tensor:
-        """(B, 30, 219), (B,) -> (B, 219)."""
+    def forward(self, frames: Tensor, speed: Tensor, wish: Tensor | None = None) -> Tensor:
+        """(B, 30, 219), (B,) and wishes (B, 8), of a network that knows them -> (B, 219)."""
         frames = ordered(frames)
         body = Standing.of(frames[:, -1:])
-        return in_columns(self.step(frames, body, body.goal(), speed))[:, 0]
+        return in_columns(self.step(frames, body, body.goal(), speed, wish))[:, 0]
 
-    def step(self, frames: Tensor, body: Standing, goal: Tensor, speed: Tensor) -> Tensor:
+    def step(self, frames: Tensor, body: Standing, goal: Tensor, speed: Tensor, wish: Tensor | None = None) -> Tensor:
         """Frames (B, 30, 219) in `ORDER`, the last one's body, the goal as it sees it (B, 7) -> (B, 1, 219)."""
         local = seen(frames, body)
         changes = self.changes @ local  # the matrix takes differences, exactly
         inputs = joined((local - self.mean) * self.rate, changes * self.change_rate)
-        change = self.body(inputs, torch.cat((goal, speed[:, None] - 1.0), dim=1))
+        change = self.body(inputs, self._heard(torch.cat((goal, speed[:, None] - 1.0), dim=1), body, wish))
         return unseen(local[:, -1:] * self.moving + self.resting + change, body)
+
+    def _heard(self, aim: Tensor, body: Standing, wish: Tensor | None) -> Tensor:
+        """(B, 8 or 16): the goal and the speed, of which a wished velocity takes the place, and the wishes."""
+        if not self.wishes:
+            return aim
+        if wish is None:
+            return torch.cat((aim, torch.zeros_like(aim)), dim=1)  # as many wishes as columns of the aim
+        turn = torch.cat((body.cos, body.sin), dim=2)[:, 0]
+        return torch.cat((aim * (1.0 - wish[:, :1]), turned_wish(wish, turn)), dim=1)
 
 
 class TransNetGraph(nn.Module):

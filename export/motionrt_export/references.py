@@ -59,13 +59,18 @@ def decoder_reference(model: TMR) -> Reference:
 
 def walk_reference(model: WalkNet) -> Reference:
     """The first frame that is predicted."""
-    return _reference(lambda frames, speed: {"next": model(frames, speed)[:, 0]}, "frames", "speed")
+    return _walking(lambda *told: model(*told)[:, 0], model)
 
 
 def step_reference(model: WalkNet) -> Reference:
     """The same at half the cost, for inputs: the module that is exported."""
-    graph = WalkNetGraph(model)
-    return _reference(lambda frames, speed: {"next": graph(frames, speed)}, "frames", "speed")
+    return _walking(WalkNetGraph(model), model)
+
+
+def _walking(step: Callable[..., Tensor], model: WalkNet) -> Reference:
+    """A step that is told wishes if the network knows them."""
+    names = ("frames", "speed", "wish") if model.wishes else ("frames", "speed")
+    return _reference(lambda *told: {"next": step(*told)}, *names)
 
 
 def transition_reference(model: TransNet) -> Reference:

@@ -239,7 +239,8 @@ class Sources:
     def _walknet(self) -> Source:
         model, trial = self.walknet.model, WalkDrift(self.walks, steps=self.steps, characters=self.characters)
         module, reference = WalkNetGraph(model), references.walk_reference(model)
-        return Source(specs.WALKNET, module, reference, self.walks, release=self.walknet, trial=trial)
+        spec = specs.WALKNET_WISHES if model.wishes else specs.WALKNET
+        return Source(spec, module, reference, self.walks, release=self.walknet, trial=trial)
 
     def _transnet(self) -> Source:
         model, examples = self.transnet.model, Transitions(self.walks, self.pose_prior.model)

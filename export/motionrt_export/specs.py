@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from motionrt.text import SLOTS, TARGETS
 
@@ -141,6 +141,14 @@ WALKNET = GraphSpec(
     ),
     (TensorSpec("next", "float32", ("batch", 219), "1, m", _NEXT),),
 )
+_WISH = (
+    "1 and a velocity (x, z), 1 and a facing (x, z) of length 1, 1 and the speed to arrive with, seen from the goal; "
+    "zeros where nothing of the kind is wished"
+)
+WALKNET_WISHES = replace(
+    WALKNET, inputs=(*WALKNET.inputs, TensorSpec("wish", "float32", ("batch", 8), "1, m/s", _WISH))
+)
+"""WalkNet that was trained with wishes beside the goal."""
 TRANSNET = GraphSpec(
     "transnet",
     (

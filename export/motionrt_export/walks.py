@@ -16,7 +16,7 @@ from motionrt.motion.features.ccf219 import ROOT, ROTATIONS, WIDTH
 from motionrt.motion.rotations import project_to_so3
 from motionrt_export.examples import Array, Feeds
 from motionrt_export.references import Reference, step_reference
-from motionrt_training.networks.walknet import WalkNet
+from motionrt_training.networks.walknet import WISHES, WalkNet
 
 Floats = npt.NDArray[np.float64]
 SPACING = 1.0  # metres between waypoints
@@ -47,20 +47,19 @@ class Walks:
         speeds = rng.uniform(*SPEEDS, len(history))
         metres = steps / FPS * SPEEDS[1] + 2.0
         paths = tuple(winding(rows, metres, rng) for rows in history)
-        crowd, routes = Crowd(_next(graph), history), WaypointTargets(paths)
+        crowd, routes = Crowd(self._next(graph), history), WaypointTargets(paths)
         frames, goals = [], []
         for _ in range(steps):
             goals.append(routes.goals(crowd.positions))
             frames.append(crowd.step(goals[-1], speeds))
         return Walked(np.stack(frames, axis=1), np.stack(goals, axis=1), speeds, paths)
 
-    @staticmethod
-    def asked(history: Array, walked: Walked, every: int) -> Iterator[Feeds]:
+    def asked(self, history: Array, walked: Walked, every: int) -> Iterator[Feeds]:
         """What a network was asked at every ``every``-th step of a walk, all characters together."""
         frames = np.concatenate([history, walked.frames], axis=1)
         for step in range(0, walked.frames.shape[1], every):
             seen = frames_to_goal(frames[:, step : step + HISTORY], walked.goals[:, step])
-            yield {"frames": seen.astype(np.float32), "speed": walked.speeds.astype(np.float32)}
+            yield self.told(seen, walked.speeds)
 
     @cached_property
     def walked(self) -> Walked:
@@ -78,13 +77,28 @@ class Walks:
         return frames, walked.goals[who, first + length - 1], walked.speeds[who]
 
     def __call__(self, batch: int, length: int, seed: int) -> Feeds:  # noqa: ARG002  # the length is fixed
-        """Inputs of WalkNet."""
+        """Inputs of WalkNet; where it knows wishes, every other character has some."""
         frames, goals, speeds = self.histories(batch, seed)
-        return {"frames": frames_to_goal(frames, goals).astype(np.float32), "speed": speeds.astype(np.float32)}
+        wish = random_wishes(batch, np.random.default_rng(seed)) * (np.arange(batch) % 2)[:, None]
+        return self.told(frames_to_goal(frames, goals), speeds, wish)
+
+    def told(self, frames: Array, speeds: Array, wish: Array | None = None) -> Feeds:
+        """Frames (B, 30, 219) seen from goals, speeds (B,) and wishes (B, 8), none by default, as inputs."""
+        told = {"frames": frames.astype(np.float32), "speed": speeds.astype(np.float32)}
+        if self._model.wishes:
+            told["wish"] = (np.zeros((len(frames), WISHES)) if wish is None else wish).astype(np.float32)
+        return told
+
+    def _next(self, graph: Reference) -> Callable[[Array, Array], Array]:
+        return lambda frames, speed: np.asarray(graph(self.told(frames, speed))["next"])
 
 
-def _next(graph: Reference) -> Callable[[Array, Array], Array]:
-    return lambda frames, speed: np.asarray(graph({"frames": frames, "speed": speed.copy()})["next"])
+def random_wishes(count: int, rng: np.random.Generator) -> Array:
+    """Rows (count, 8): a velocity that leads any way, a facing, a speed to arrive with."""
+    way, facing = rng.uniform(-np.pi, np.pi, (2, count))
+    speed, ones = rng.uniform(0.0, SPEEDS[1], count), np.ones(count)
+    columns = (ones, speed * np.sin(way), speed * np.cos(way), ones, np.sin(facing), np.cos(facing), ones, speed)
+    return np.stack(columns, axis=1)
 
 
 def standing_start(model: WalkNet) -> Floats:

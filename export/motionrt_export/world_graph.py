@@ -81,7 +81,7 @@ def furthest(session: ort.InferenceSession, sources: Sources, count: int = 64) -
     """The largest difference of the next frame from the runtime's step with the torch module."""
     frames, goals, speeds = sources.walks.histories(count, seed=3)
     model = sources.source(WALKNET.name).reference
-    crowd = Crowd(lambda seen, speed: model({"frames": seen, "speed": speed.copy()})["next"], frames)
+    crowd = Crowd(lambda seen, speed: model(sources.walks.told(seen, speed))["next"], frames)
     expected = crowd.step(goals, speeds)
     feeds = {"history": frames, "goal": goals, "speed": speeds}
     found = session.run(["next"], {name: value.astype(np.float32) for name, value in feeds.items()})[0]

@@ -18,8 +18,10 @@ from motionrt_export.gap import Gaps  # noqa: E402
 from motionrt_export.motion_graphs import Hidden, TransNetGraph, WalkNetGraph, changes  # noqa: E402
 from motionrt_export.trace import trace  # noqa: E402
 from motionrt_export.validate import open_session, run  # noqa: E402
+from motionrt_export.walks import random_wishes  # noqa: E402
 from motionrt_training.networks.motion_transformer import MotionTransformer  # noqa: E402
 from motionrt_training.networks.transnet import _distances, clock, fill, find_gap  # noqa: E402
+from motionrt_training.networks.walknet import WISHES  # noqa: E402
 
 
 def poses(rng: np.random.Generator, *shape: int) -> np.ndarray:
@@ -35,6 +37,18 @@ def test_the_step_is_the_first_frame_that_walknet_predicts(batch: int, patch: in
     frames, speed = torch.from_numpy(poses(rng, batch, 30)), torch.rand(batch) * 2
     expected = model(frames, speed)[:, 0]
     torch.testing.assert_close(WalkNetGraph(model)(frames, speed), expected, atol=3e-6, rtol=1e-5)
+
+
+@pytest.mark.parametrize("batch", [1, 4])
+def test_the_step_of_a_network_that_knows_wishes_is_what_it_predicts_with_them_and_without(batch: int) -> None:
+    model, rng = tiny_walknet(wishes=True), np.random.default_rng(6)
+    model.body.embed.weight.data.unflatten(1, (5, -1))[..., -WISHES:] *= 100.0  # that wishes tell
+    frames, speed = torch.from_numpy(poses(rng, batch, 30)), torch.rand(batch) * 2
+    wish = torch.from_numpy(random_wishes(batch, rng).astype(np.float32))
+    for told in ((frames, speed), (frames, speed, wish), (frames, speed, 0 * wish)):
+        found, expected = WalkNetGraph(model)(*told), model(*told)[:, 0]
+        torch.testing.assert_close(found, expected, atol=3e-6, rtol=1e-5)
+    assert (model(frames, speed, wish)[:, 0] - model(frames, speed)[:, 0]).abs().max() > 1e-4
 
 
 def test_characters_of_a_crowd_do_not_disturb_each_other() -> None:
@@ -59,6 +73,7 @@ def test_transitions_are_those_of_transnet(patch: int) -> None:
     ("spec", "module"),
     [
         (specs.WALKNET, lambda: WalkNetGraph(tiny_walknet())),
+        (specs.WALKNET_WISHES, lambda: WalkNetGraph(tiny_walknet(wishes=True))),
         (specs.TRANSNET, lambda: TransNetGraph(tiny_transnet())),
         (specs.POSE_PRIOR, tiny_pose_prior),
     ],

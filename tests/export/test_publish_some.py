@@ -5,18 +5,22 @@ from __future__ import annotations
 import hashlib
 import json
 import shutil
+from collections.abc import Mapping
 from pathlib import Path
+from typing import cast
 
+import numpy as np
 import pytest
 import yaml
 
 pytest.importorskip("torch", reason="torch is not installed; the export extra brings it")
 pytest.importorskip("onnx", reason="onnx is not installed; the export extra brings it")
 
-from tiny_nets import TOKENIZER, TinySources, tiny_sources
+from tiny_nets import TOKENIZER, TinySources, tiny_sources, tiny_walknet
 
 from motionrt.errors import ManifestError
-from motionrt.models import load_manifest, verify
+from motionrt.models import Sessions, load_manifest, verify
+from motionrt.models.walknet import WalkModel
 from motionrt_export.layout import Layout
 from motionrt_export.measured import Measured
 from motionrt_export.measures import Figures
@@ -24,8 +28,19 @@ from motionrt_export.proving import subject_of
 from motionrt_export.publish import Proof, publish
 from motionrt_export.sources import MissingCheckpointsError
 from motionrt_export.validate import validate
+from motionrt_export.walks import random_wishes
+from motionrt_training.checkpoint import Network
+from motionrt_training.networks.walknet import WalkNet
 
 BOTH = ("tmr_student", "pose_prior")
+
+
+class WithWishes(TinySources):
+    """A WalkNet that knows wishes among the tiny networks."""
+
+    def load(self, network: type[Network]) -> tuple[Network, Mapping[str, str]]:
+        model, notes = super().load(network)
+        return (cast("Network", tiny_walknet(wishes=True)) if network is WalkNet else model), notes
 
 
 def exported(root: Path, *names: str, sources: TinySources | None = None) -> None:
@@ -94,6 +109,17 @@ def test_a_model_that_the_manifest_lacked_takes_its_place(copy: Path) -> None:
     manifest.write_text(yaml.safe_dump(content, sort_keys=False), encoding="utf-8")
     exported(copy, "tmr_student", sources=few_sources(copy))
     assert manifest.read_bytes() == whole
+
+
+def test_a_walknet_that_knows_wishes_is_exported_with_them_and_the_runtime_asks_for_them(tmp_path: Path) -> None:
+    tiny_sources(tmp_path / "models")
+    exported(tmp_path, "walknet", sources=WithWishes(tmp_path / "models"))
+    model = WalkModel(Sessions(tmp_path / "models_manifest.yaml"))
+    assert model.wishes
+    frames, speed = np.zeros((2, 30, 219), np.float32), np.ones(2, np.float32)
+    frames[..., :216] = np.tile(np.eye(3, dtype=np.float32).ravel(), 24)
+    wish = random_wishes(2, np.random.default_rng(0)).astype(np.float32)
+    assert model(frames, speed).shape == model(frames, speed, wish).shape == (2, 219)
 
 
 def test_a_name_that_is_no_model_is_refused(tmp_path: Path) -> None:

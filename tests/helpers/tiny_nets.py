@@ -55,10 +55,10 @@ def tiny_minilm() -> MiniLM:
     return model.eval().requires_grad_(False)
 
 
-def tiny_walknet(patch: int = 5) -> WalkNet:
+def tiny_walknet(patch: int = 5, *, wishes: bool = False) -> WalkNet:
     """A WalkNet of two narrow layers that stands about: changes are small."""
     torch.manual_seed(5)
-    model = WalkNet(d=64, layers=2, heads=2, ff=64, patch=patch)
+    model = WalkNet(d=64, layers=2, heads=2, ff=64, patch=patch, wishes=wishes)
     model.body.out.weight.data.normal_(0.0, 0.1)
     _standing(model.pose_mean)
     model.pose_std.uniform_(0.05, 0.3)
