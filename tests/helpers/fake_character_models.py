@@ -43,6 +43,23 @@ def turns_gently(frames: np.ndarray, speed: np.ndarray) -> np.ndarray:
     return out.astype(np.float32)
 
 
+class Strafes:
+    """As `turns_gently`; where a velocity and a facing are wished, moved and turned exactly so."""
+
+    wishes = True
+
+    def __call__(self, frames: np.ndarray, speed: np.ndarray, wish: np.ndarray | None = None) -> np.ndarray:
+        if wish is None:
+            return turns_gently(frames, speed)
+        out = frames[:, -1].astype(np.float64)
+        facing = np.arctan2(out[:, 2], out[:, 8])
+        off = np.arctan2(wish[:, 4], wish[:, 5]) - facing
+        facing = facing + np.clip((off + np.pi) % (2 * np.pi) - np.pi, -0.1, 0.1)
+        out[:, 0:9] = Rotation.from_euler("y", facing[:, None]).as_matrix().reshape(-1, 9)
+        out[:, [216, 218]] += wish[:, 1:3] / FPS
+        return out.astype(np.float32)
+
+
 def stays(frames: np.ndarray, speed: np.ndarray) -> np.ndarray:
     """The last frame again: a character that is stuck."""
     return frames[:, -1]

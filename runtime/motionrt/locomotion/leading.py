@@ -24,7 +24,8 @@ BRAKES = 1.3  # m/s lost per second
 THERE = 0.75  # metres from a goal at which the walk ends; steps do the rest
 STEPS_FROM = 1.9  # m/s: who is faster slows down before a walk ends in steps ...
 SLOW = 1.1  # ... to this
-ASIDE = 0.7  # radians between way and facing: more is stepped
+ASIDE = 0.7  # radians between way and facing: more is stepped, or strafed by a network that knows wishes ...
+STRAFES_TO = 1.5  # ... at most so fast, m/s
 AHEAD = 1.0  # metres from a walker to the place that it is led to
 FREE, HELP, MOST = 0.25, 0.05, 0.03  # radians aside that need no help; radians a frame for each beyond, and the most
 SLOWEST = 0.6  # of the speed, in the sharpest turns
@@ -123,14 +124,20 @@ def towards(goal: Goal, place: Place, facing: float, now: float, pace: float) ->
     return Lead(most, way, way, way - facing)
 
 
-def by_stick(velocity: tuple[float, float], facing: float | None, looks: float, now: float) -> Lead | None:
+def by_stick(
+    velocity: tuple[float, float], facing: float | None, looks: float, now: float, *, strafes: bool = False
+) -> Lead | None:
     """The way that a stick wants, for who looks at ``looks`` and goes ``now`` m/s.
 
-    None where nothing is wanted, or what is stepped and not walked: sideways, backwards, very slowly.
+    None where nothing is wanted, or what is stepped and not walked: very slowly, and sideways or backwards unless the
+    network ``strafes``.
     """
     wanted = hypot(*velocity)
     way = float(np.arctan2(velocity[0], velocity[1])) if wanted > STANDS else looks
     aside = facing is not None and abs(wrapped(way - facing)) > ASIDE
+    if aside and strafes and wanted >= WALKS_FROM:
+        turn = float(np.clip(wrapped((looks if facing is None else facing) - looks), -SHARPEST, SHARPEST))
+        return Lead(min(wanted, STRAFES_TO), way, looks + turn)
     if wanted < WALKS_FROM or aside:
         return None if now < STEPS_FROM else Lead(SLOW, looks, looks)
     way = looks + float(np.clip(wrapped(way - looks), -SHARPEST, SHARPEST))

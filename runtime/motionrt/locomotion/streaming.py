@@ -110,9 +110,10 @@ class Stroller:
         lead = self._lead(seen)
         if lead is None:
             return self._end_of_walk(seen)
-        wishes = np.array([lead.wish().row()]) if takes_wishes(self.models.walk) and lead.faces_aside else None
+        wishes = np.array([lead.wish().row()]) if self._strafes and lead.faces_aside else None
         aim = np.array([lead.goal(place_of(seen)).row()])
-        crowd = Crowd(self.models.walk, helped(aim, self._last[None, -HISTORY:]))
+        history = self._last[None, -HISTORY:]
+        crowd = Crowd(self.models.walk, history if lead.faces_aside else helped(aim, history))
         made = crowd.step(aim, asked_for(lead.speed, speed_of(seen)), wishes)
         return made if self._is_walk(made[0]) else self._step(seen, Goal(*over_feet(seen), facing_of(seen)))
 
@@ -120,7 +121,13 @@ class Stroller:
         facing, now = facing_of(seen), speed_of(seen, 0.2)
         if self.stick is None:
             return None if self._creeps else towards(self.goal, place_of(seen), facing, now, self._pace(seen))
-        return by_stick(self.stick.velocity or (0.0, 0.0), self.stick.facing, facing, now)
+        wanted = self.stick.velocity or (0.0, 0.0)
+        return by_stick(wanted, self.stick.facing, facing, now, strafes=self._strafes)
+
+    @property
+    def _strafes(self) -> bool:
+        """Whether the network walks sideways and backwards: it was trained with wishes."""
+        return takes_wishes(self.models.walk)
 
     @property
     def _creeps(self) -> bool:
@@ -169,7 +176,11 @@ class Stroller:
         if wanted <= STANDS:
             turns = abs(wrapped(looks - facing)) > 2 * CLOSE_TURN
             return self._step(seen, Goal(*place, looks)) if turns or self._walks else self._pause(seen)
-        if wanted < WALKS_FROM or (stick.facing is not None and abs(wrapped(way - looks)) > ASIDE):
+        aside = stick.facing is not None and abs(wrapped(way - looks)) > ASIDE
+        if aside and self._strafes and wanted >= WALKS_FROM:
+            self._walks = True
+            return self._walk(seen)
+        if wanted < WALKS_FROM or aside:
             x, z = place_of(seen)
             looks = way if stick.facing is None else looks
             goal = Goal(x + ON * velocity[0] / wanted, z + ON * velocity[1] / wanted, looks)

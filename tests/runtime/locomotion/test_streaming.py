@@ -7,12 +7,13 @@ from itertools import islice
 
 import numpy as np
 import pytest
-from fake_character_models import FPS, FakeCharacterModels, turns_gently
+from fake_character_models import FPS, FakeCharacterModels, Strafes, turns_gently
 from motions import random_motion, walking
 
 from motionrt.errors import InvalidInputError
 from motionrt.locomotion.bearings import facing_of
 from motionrt.locomotion.goal_frame import Goal
+from motionrt.locomotion.leading import STRAFES_TO
 from motionrt.locomotion.starting_poses import stride_of
 from motionrt.locomotion.streaming import stream
 from motionrt.motion import Motion
@@ -175,6 +176,25 @@ def test_backward_sideways_and_slow_sticks_are_stepped_at_their_speed(
     assert abs(facing_of(seen[-1])) < 0.1
     ankles = np.concatenate([motion.positions()[:, [7, 8], 1] for motion in seen])
     assert (ankles.max(axis=0) - ankles[0] > 0.04).all()
+
+
+@pytest.mark.parametrize(("velocity", "facing"), [((0.0, -0.9), 0.0), ((0.8, 0.0), 0.0), ((0.7, -0.7), 0.5)])
+def test_a_network_that_knows_wishes_walks_where_the_stick_points_and_looks_where_it_looks(
+    velocity: tuple[float, float], facing: float
+) -> None:
+    walker = stream(FakeCharacterModels(Strafes()), Goal(0, 0), Goal(0, 0))
+    seen = [walker.steer(velocity, facing) for _ in range(90)]
+    way = (roots(seen)[-1] - roots(seen)[59]) * FPS / 30
+    np.testing.assert_allclose(way, velocity, atol=0.01)
+    assert facing_of(seen[-1]) == pytest.approx(facing, abs=0.02)
+    ahead = [walker.steer((0.0, 1.2)) for _ in range(120)]  # and ahead again, as every network does
+    assert roots(ahead)[-1, 1] - roots(ahead)[60, 1] > 1.5
+
+
+def test_what_a_stick_wants_faster_than_anybody_strafes_is_strafed_slower() -> None:
+    walker = stream(FakeCharacterModels(Strafes()), Goal(0, 0), Goal(0, 0))
+    seen = [walker.steer((4.0, 0.0), 0.0) for _ in range(60)]
+    assert (roots(seen)[-1, 0] - roots(seen)[29, 0]) * FPS / 30 == pytest.approx(STRAFES_TO, abs=0.05)
 
 
 def test_the_first_step_of_a_walk_is_finished_before_something_else_begins() -> None:
