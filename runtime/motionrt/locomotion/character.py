@@ -24,6 +24,7 @@ from motionrt.locomotion.lying import lie_back, reversed_in_time
 from motionrt.locomotion.path import Path
 from motionrt.locomotion.path_following import Pace, Progress, walk
 from motionrt.locomotion.performance import Aim, Performance, Segment, performance_of
+from motionrt.locomotion.stepped_transitions import with_steps
 from motionrt.locomotion.stepping import set_off, step_to
 from motionrt.locomotion.terrain import Heights, Terrain, raised
 from motionrt.locomotion.transitions import LONGEST, placed, speed_of
@@ -164,7 +165,8 @@ class Character:
     def into(self, pose: Motion, name: str, level: float | None = None) -> None:
         """The transition into a pose that will be held, on ground that is ``level`` metres high."""
         self._pose = pose
-        self._add("transition", name, self.models.transition(self.tail, pose, held=True), pose, level=level)
+        made = with_steps(self.tail, self.models.transition(self.tail, pose, held=True))
+        self._add("transition", name, made, pose, level=level)
         self.moving = False
 
     def lie(self, seat: Motion, pose: Motion, name: str, level: float) -> None:
@@ -187,7 +189,9 @@ class Character:
             self.stand_here(name)
         shown = placed(motion, Goal(*self.place, self.facing))
         into = shown[: min(LONGEST, shown.frames)]
-        self._add("transition", name, self.models.transition(self.tail, into), into)
+        made = self.models.transition(self.tail, into)
+        gap = made.frames - into.frames + 1  # the last of these frames is the first that is given
+        self._add("transition", name, joined([with_steps(self.tail, made[:gap]), made[gap:]]), into)
         if shown.frames > into.frames:
             self._add("generated", name, shown[into.frames :], None)
         self._pose, self.moving = shown[-1:], False

@@ -80,8 +80,8 @@ def step_to(seed: Motion, target: Motion, pace: float = np.inf) -> Steps:
         InvalidInputError: another frame rate than 30 fps.
     """
     now, target = at_30_fps(seed)[-1:], at_30_fps(target)[-1:]
-    start, end = _Stand.of(now), _Stand.of(target)
-    speed = _speed_of(seed)
+    start, end = Stand.of(now), Stand.of(target)
+    speed = last_speed(seed)
     steps = _planned(start, end, speed, pace)
     frames = duration(steps)
     placed = shares(steps, frames)
@@ -89,8 +89,8 @@ def step_to(seed: Motion, target: Motion, pace: float = np.inf) -> Steps:
     coasted = _coasting(speed, frames)
     root = _body_path(start, end, body, swings(steps, frames)) + coasted
     upper = _upper(now, target, body, start, end)
-    feet, turns = _feet(start, end, steps, frames)
-    rotations, root = _with_legs(upper, root, feet, turns, _ahead(start, end, feet, body))
+    feet, turns = feet_over(start, end, steps, frames)
+    rotations, root = with_legs(upper, root, feet, turns, _ahead(start, end, feet, body))
     rotations[-1], root[-1] = target.rotations[0], target.root[0]
     made = Motion(rotations.astype(np.float32), root.astype(np.float32), FPS)
     return Steps(made, (*(step.end for step in steps), frames))
@@ -111,7 +111,7 @@ def set_off(seed: Motion, standing: Motion, way: float) -> Motion:
 
 
 @dataclass(frozen=True)
-class _Stand:
+class Stand:
     """Somebody who stands: root (3,), yaw, ankles (2, 3) and their global rotations (2, 3, 3)."""
 
     root: Values
@@ -120,37 +120,52 @@ class _Stand:
     turns: Values
 
     @classmethod
-    def of(cls, pose: Motion) -> _Stand:
+    def of(cls, pose: Motion) -> Stand:
+        """The stand of a pose, one frame."""
         rotations, root = pose.rotations[0].astype(np.float64), pose.root[0].astype(np.float64)
         positions, turned = fk(rotations, root, SMPL24.offsets.astype(np.float64), SMPL24.parents)
         ankles, turns = positions[_ANKLES].astype(np.float64), turned[_ANKLES].astype(np.float64)
         return cls(root, float(heading(pose)[0]), ankles, turns)
 
 
-def _planned(start: _Stand, end: _Stand, speed: Values, pace: float) -> list[Footfall]:
+def _planned(start: Stand, end: Stand, speed: Values, pace: float) -> list[Footfall]:
     turn = float(wrapped(end.yaw - start.yaw))
     way = end.root - start.root
     facing = start.yaw + turn / 2
     ahead = way[0] * np.sin(facing) + way[2] * np.cos(facing)
     left = way[0] * np.cos(facing) - way[2] * np.sin(facing)
-    off = np.hypot(*(end.ankles - start.ankles)[:, [0, 2]].T)
-    twist = np.linalg.norm(matrix_to_axis_angle(np.swapaxes(start.turns, -1, -2) @ end.turns), axis=-1)
-    high = start.ankles[:, 1] - end.ankles[:, 1]
-    displaced = (off > MOVED) | (twist > 3 * TURNED) | (high > IN_THE_AIR)
+    high, moves = start.ankles[:, 1] - end.ankles[:, 1], displaced(start, end)
     first = int(high.argmax()) if high.max() > IN_THE_AIR else None
-    if np.hypot(*speed[[0, 2]]) > MOVING:
-        behind = int((start.ankles @ speed).argmin())
-        first, displaced[behind] = (behind if first is None else first), True
-    told = float(ahead), float(left), turn, (bool(displaced[0]), bool(displaced[1])), first
+    behind = foot_behind(start, speed)
+    if behind is not None:
+        first, moves[behind] = (behind if first is None else first), True
+    told = float(ahead), float(left), turn, (bool(moves[0]), bool(moves[1])), first
     steps = plan_steps(*told, pace=pace)
     if not steps:
         return steps
     aim = _placed(start, end, steps[0].share)[0][steps[0].foot]
     far = float(np.linalg.norm(aim - start.ankles[steps[0].foot]))
-    return plan_steps(*told, longer=round(float(np.clip((far - FAR) * LONGER, 0, MOST_LONGER))), pace=pace)
+    return plan_steps(*told, longer=longer_for(far), pace=pace)
 
 
-def _placed(start: _Stand, end: _Stand, share: float) -> tuple[Values, Values]:
+def displaced(start: Stand, end: Stand) -> npt.NDArray[np.bool_]:
+    """``(2,)`` which feet have to be lifted: they stand elsewhere, or turned, or are in the air."""
+    off = np.hypot(*(end.ankles - start.ankles)[:, [0, 2]].T)
+    twist = np.linalg.norm(matrix_to_axis_angle(np.swapaxes(start.turns, -1, -2) @ end.turns), axis=-1)
+    return np.asarray((off > MOVED) | (twist > 3 * TURNED) | (start.ankles[:, 1] - end.ankles[:, 1] > IN_THE_AIR))
+
+
+def foot_behind(start: Stand, speed: Values) -> int | None:
+    """Of somebody who walks, at ``(3,)`` m/s, the foot that is behind; None of who stands."""
+    return int((start.ankles @ speed).argmin()) if np.hypot(*speed[[0, 2]]) > MOVING else None
+
+
+def longer_for(far: float) -> int:
+    """Frames that a step of so many metres takes longer than others."""
+    return round(float(np.clip((far - FAR) * LONGER, 0, MOST_LONGER)))
+
+
+def _placed(start: Stand, end: Stand, share: float) -> tuple[Values, Values]:
     """Ankles and their rotations where they would stand if the body stood at a share of its way."""
     turn = float(wrapped(end.yaw - start.yaw)) * (share - 1)
     rotation = axis_rotation("Y", turn)
@@ -159,7 +174,7 @@ def _placed(start: _Stand, end: _Stand, share: float) -> tuple[Values, Values]:
     return off @ rotation.T + place, rotation @ end.turns
 
 
-def _feet(start: _Stand, end: _Stand, steps: list[Footfall], frames: int) -> tuple[Values, Values]:
+def feet_over(start: Stand, end: Stand, steps: list[Footfall], frames: int) -> tuple[Values, Values]:
     """``(F, 2, 3)`` ankles and ``(F, 2, 3, 3)`` their rotations: standing, or in the air."""
     ankles = np.repeat(start.ankles[None], frames, axis=0)
     turns = np.repeat(start.turns[None], frames, axis=0)
@@ -184,7 +199,7 @@ def _feet(start: _Stand, end: _Stand, steps: list[Footfall], frames: int) -> tup
     return ankles, turns
 
 
-def _body_path(start: _Stand, end: _Stand, body: Values, air: Values) -> Values:
+def _body_path(start: Stand, end: Stand, body: Values, air: Values) -> Values:
     """``(F, 3)`` the pelvis: on its way, its weight over the foot that stands."""
     path = start.root + body[:, None] * (end.root - start.root)
     yaw = start.yaw + wrapped(end.yaw - start.yaw) * body
@@ -194,7 +209,7 @@ def _body_path(start: _Stand, end: _Stand, body: Values, air: Values) -> Values:
     return np.asarray(path + side * (SHIFT * half * _smoothed(lean, pinned=True))[:, None])
 
 
-def _upper(now: Motion, target: Motion, body: Values, start: _Stand, end: _Stand) -> Values:
+def _upper(now: Motion, target: Motion, body: Values, start: Stand, end: Stand) -> Values:
     """``(F, 24, 3, 3)`` all joints from one pose to the other; the pelvis keeps its lean while it turns."""
     first, last = now.rotations[0].astype(float), target.rotations[0].astype(float)
     first[0], last[0] = axis_rotation("Y", -start.yaw) @ first[0], axis_rotation("Y", -end.yaw) @ last[0]
@@ -205,20 +220,20 @@ def _upper(now: Motion, target: Motion, body: Values, start: _Stand, end: _Stand
     return np.asarray(out)
 
 
-def _ahead(start: _Stand, end: _Stand, feet: Values, body: Values) -> Values:
+def _ahead(start: Stand, end: Stand, feet: Values, body: Values) -> Values:
     """``(F,)`` metres that the left foot is ahead of the right, beyond what the poses have."""
     yaw = start.yaw + wrapped(end.yaw - start.yaw) * body
     apart = feet[:, 0] - feet[:, 1]
     ahead = apart[:, 0] * np.sin(yaw) + apart[:, 2] * np.cos(yaw)
 
-    def own(stand: _Stand) -> float:
+    def own(stand: Stand) -> float:
         way = stand.ankles[0] - stand.ankles[1]
         return float(way[0] * np.sin(stand.yaw) + way[2] * np.cos(stand.yaw))
 
     return _smoothed(ahead - (own(start) + body * (own(end) - own(start))), pinned=True)
 
 
-def _with_legs(upper: Values, root: Values, feet: Values, turns: Values, ahead: Values) -> tuple[Values, Values]:
+def with_legs(upper: Values, root: Values, feet: Values, turns: Values, ahead: Values) -> tuple[Values, Values]:
     """Rotations and root whose ankles are where they shall be; arms and trunk swing against the legs."""
     rotations = upper.copy()
     swing = np.clip(ARMS * ahead, -0.6, 0.6)
@@ -241,7 +256,7 @@ def _with_legs(upper: Values, root: Values, feet: Values, turns: Values, ahead: 
     return rotations, root
 
 
-def _speed_of(seed: Motion) -> Values:
+def last_speed(seed: Motion) -> Values:
     """``(3,)`` m/s of the pelvis at the end."""
     if seed.frames < 2:
         return np.zeros(3)

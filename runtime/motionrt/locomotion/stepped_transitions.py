@@ -1,0 +1,87 @@
+"""Steps in a transition: feet that have to go elsewhere are lifted there one after the other, all others stay.
+
+TransNet knows well where a body goes in two seconds, and lets its feet glide there. Here the body keeps its way, and
+its legs reach for feet that stand where they stood, swing once, when the network moved them most, and stand where the
+pose that follows has them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from motionrt.locomotion.footfalls import LEAD, PAUSE, SWING, Footfall
+from motionrt.locomotion.stepping import (
+    IN_THE_AIR,
+    Stand,
+    displaced,
+    feet_over,
+    foot_behind,
+    last_speed,
+    longer_for,
+    with_legs,
+)
+from motionrt.motion import Motion
+from motionrt.motion.feet.two_bone import LEG_JOINTS
+
+LEFT = 5  # frames at the end in which both feet stand
+LOWERS, STILL_UP = 0.15, 0.45  # metres that who sits down or rises goes down or up; share of that done while feet step
+FARTHEST = 1.2  # metres: a foot that goes farther needs more than one step, and goes as the network says
+
+_ANKLES = [leg[2] for leg in LEG_JOINTS]
+
+
+def with_steps(seed: Motion, made: Motion) -> Motion:
+    """A transition whose feet step.
+
+    Args:
+        seed: what came before, 30 fps, on ``smpl24``.
+        made: the frames behind it; the last one is the pose that is aimed at, and stays as it is.
+    """
+    start, end = Stand.of(seed[-1:]), Stand.of(made[-1:])
+    steps = _planned(start, end, made, foot_behind(start, last_speed(seed)))
+    if steps is None:
+        return made
+    feet, turns = feet_over(start, end, steps, made.frames)
+    rotations, root = made.rotations.astype(np.float64), made.root.astype(np.float64)
+    rotations, root = with_legs(rotations, root, feet, turns, np.zeros(made.frames))
+    rotations[-1], root[-1] = made.rotations[-1], made.root[-1]
+    return replace(made, rotations=rotations.astype(np.float32), root=root.astype(np.float32))
+
+
+def _planned(start: Stand, end: Stand, made: Motion, behind: int | None) -> list[Footfall] | None:
+    """A step for each foot that is displaced, in the order in which the network moves them; None if one is too far."""
+    off = np.hypot(*(end.ankles - start.ankles)[:, [0, 2]].T)
+    if off.max() > FARTHEST:
+        return None
+    high = start.ankles[:, 1] - end.ankles[:, 1]
+    ankles = made.positions()[:, _ANKLES].astype(np.float64)
+    moved = np.linalg.norm(np.diff(np.concatenate([start.ankles[None], ankles]), axis=0), axis=2)
+    middles = np.arange(1, made.frames + 1) @ moved / np.maximum(moved.sum(axis=0), 1e-9)
+    if behind is not None:
+        middles[behind] = 0.0  # a walk goes on with the foot that is behind ...
+    middles = np.where(high > IN_THE_AIR, -high, middles)  # ... or in the air
+    feet = [int(foot) for foot in np.argsort(middles) if displaced(start, end)[foot]]
+    lengths = [SWING + longer_for(float(off[foot])) for foot in feet]
+    steps: list[Footfall] = []
+    begin, finish = _upright(start, end, made)
+    latest = finish - sum(lengths) - PAUSE * max(0, len(feet) - 1)
+    for foot, length in zip(feet, lengths, strict=True):
+        earliest = steps[-1].end + PAUSE if steps else 1 if middles[foot] <= 0.0 else begin
+        first = int(np.clip(round(middles[foot] - length / 2), earliest, max(earliest, latest)))
+        steps.append(Footfall(foot, first, first + length, 1.0))
+        latest += length + PAUSE
+    return steps
+
+
+def _upright(start: Stand, end: Stand, made: Motion) -> tuple[int, int]:
+    """The first and the last frame for steps: who sits down steps before, who rises steps afterwards."""
+    falls = float(start.root[1] - end.root[1])
+    begin, finish = LEAD, made.frames - LEFT
+    if abs(falls) > LOWERS:
+        done = (start.root[1] - made.root[:, 1]) / falls
+        share = STILL_UP if falls > 0 else 1.0 - STILL_UP
+        mark = int((done > share).argmax())
+        begin, finish = (begin, mark) if falls > 0 else (min(mark, finish - 2 * SWING), finish)
+    return begin, finish
