@@ -19,7 +19,9 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
+from motionrt.locomotion.bearings import joined
 from motionrt.locomotion.goal_frame import canonicalise
+from motionrt.locomotion.stepped_transitions import with_steps
 from motionrt.locomotion.transitions import goal_of, locked
 from motionrt.metrics.locomotion import foot_skate, keypoint_error
 from motionrt.models import Sessions
@@ -91,6 +93,11 @@ def filled(model: Infill, windows: Sequence[Motion]) -> list[Motion]:
         seen = np.where(hidden[:, None], 0, frames).astype(np.float32)
         out += [ccf219.decode(x) for x in model(seen, np.tile(hidden, (len(frames), 1)))]
     return out
+
+
+def stepped(window: Motion) -> Motion:
+    """A window whose feet step in the gap, as in performances."""
+    return joined([window[:SEED], with_steps(window[:SEED], window[SEED:])])
 
 
 def measure(found: Sequence[Motion], truth: Sequence[Motion]) -> Row:
@@ -183,6 +190,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         "interpolation": lambda windows: [interpolate(window) for window in windows],
         "TransNet": lambda windows: filled(model, windows),
         "TransNet, feet locked": lambda windows: [locked(motion) for motion in filled(model, windows)],
+        "TransNet, with steps, locked": lambda windows: [locked(stepped(m)) for m in filled(model, windows)],
     }
     result = compare(fills, held_out(load_recordings(args.corpus), args.split, args.count))
     if args.json:
