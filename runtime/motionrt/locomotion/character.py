@@ -40,7 +40,8 @@ STOPS_S = 0.6  # seconds of its speed before a stand at which a walk gives way t
 LOOKS_AHEAD = 0.9  # metres of a path that the first step looks ahead
 SETTLE_S = 0.2  # seconds that the first pose is held
 MOVING = 0.4  # m/s above which a motion that is gone on from counts as a walk
-LOW = 0.3  # metres that the pelvis is lower than standing in a pose that one has to get up from
+UNLIKE = 0.15  # metres that joints of a held pose are from those of a stand, on average, before one stands up to walk
+BESIDE = 0.3  # metres from where somebody stands up over its feet that a stand may be reached without steps
 
 
 class Planner(Protocol):
@@ -84,6 +85,7 @@ class Character:
         self._parts: list[Motion] = [before]  # on the plane, as all that follows
         self._pose = before[-1:]
         self.moving = speed_of(before) > MOVING
+        self._posed = False  # whether it holds a pose that it took
         self._risen: tuple[Motion, Motion] | None = None  # of somebody who lies: the way up, and the seat
         if isinstance(start, Goal):
             self.hold(SETTLE_S, "start")
@@ -140,7 +142,7 @@ class Character:
     def walked(self, motion: Motion, path: Path, name: str) -> None:
         """Remember a walk along a path."""
         self._add("walk", name, motion, path)
-        self.moving = True
+        self.moving, self._posed = True, False
 
     def stop(self, place: Place, facing: float, name: str) -> None:
         """Come to a stand at a place, facing a heading."""
@@ -152,8 +154,8 @@ class Character:
             self._stand(Goal(*(place or over_feet(self._parts[-1])), facing), name)
 
     def get_up(self, name: str) -> None:
-        """Stand upright over the feet, if the pose is a low one."""
-        if not self.moving and self.models.standing.root[0, 1] - self._pose.root[0, 1] > LOW:
+        """Stand upright over the feet, if a pose is held that nobody walks away from."""
+        if self._posed and _apart(self._pose, self.models.standing) > UNLIKE:
             self.stand_here(name)
 
     def stand_here(self, name: str) -> None:
@@ -167,7 +169,7 @@ class Character:
         self._pose = pose
         made = with_steps(self.tail, self.models.transition(self.tail, pose, held=True))
         self._add("transition", name, made, pose, level=level)
-        self.moving = False
+        self.moving, self._posed = False, True
 
     def lie(self, seat: Motion, pose: Motion, name: str, level: float) -> None:
         """From standing before an edge to sitting on it, and back into a pose that lies."""
@@ -246,9 +248,13 @@ class Character:
         """By steps from a stand or a walk; by a transition from anything else."""
         pose = uncanonicalise(self.models.standing, goal)
         if abs(self.models.standing.root[0, 1] - self._parts[-1].root[-1, 1]) > UPRIGHT:
-            self.into(pose, name)
-            return
-        self._pose, self.moving = pose, False
+            over = over_feet(self._parts[-1])
+            if apart(over, (goal.x, goal.z)) <= BESIDE and abs(wrapped(goal.heading - self.facing)) <= EASY_TURN:
+                self.into(pose, name)
+                self._posed = False
+                return
+            self.into(uncanonicalise(self.models.standing, Goal(*over, self.facing)), name)
+        self._pose, self.moving, self._posed = pose, False, False
         self._add("transition", name, step_to(self.tail, pose).motion, pose)
 
     def _add(
@@ -266,3 +272,10 @@ class Character:
         self._parts.append(motion)
         self._segments.append(Segment(kind, name, start, start + motion.frames, dict(keypoints or {})))
         self._aims.append(aim)
+
+
+def _apart(pose: Motion, standing: Motion) -> float:
+    """Metres between the joints of two poses that stand in one place and face one way, on average."""
+    here = Goal(0.0, 0.0)
+    found, wanted = (placed(each[-1:], here).positions()[0] for each in (pose, standing))
+    return float(np.linalg.norm(found - wanted, axis=1).mean())

@@ -27,7 +27,7 @@ from motionrt.motion.feet.two_bone import LEG_JOINTS
 
 LEFT = 5  # frames at the end in which both feet stand
 LOWERS, STILL_UP = 0.15, 0.45  # metres that who sits down or rises goes down or up; share of that done while feet step
-FARTHEST = 1.2  # metres: a foot that goes farther needs more than one step, and goes as the network says
+FARTHEST = 1.2  # metres of a step: a foot that goes farther takes two; one that needs more goes as the network says
 
 _ANKLES = [leg[2] for leg in LEG_JOINTS]
 
@@ -51,9 +51,9 @@ def with_steps(seed: Motion, made: Motion) -> Motion:
 
 
 def _planned(start: Stand, end: Stand, made: Motion, behind: int | None) -> list[Footfall] | None:
-    """A step for each foot that is displaced, in the order in which the network moves them; None if one is too far."""
+    """Steps for each foot that is displaced, in the order in which the network moves them; None if one is too far."""
     off = np.hypot(*(end.ankles - start.ankles)[:, [0, 2]].T)
-    if off.max() > FARTHEST:
+    if off.max() > 2 * FARTHEST:
         return None
     high = start.ankles[:, 1] - end.ankles[:, 1]
     ankles = made.positions()[:, _ANKLES].astype(np.float64)
@@ -63,16 +63,20 @@ def _planned(start: Stand, end: Stand, made: Motion, behind: int | None) -> list
         middles[behind] = 0.0  # a walk goes on with the foot that is behind ...
     middles = np.where(high > IN_THE_AIR, -high, middles)  # ... or in the air
     feet = [int(foot) for foot in np.argsort(middles) if displaced(start, end)[foot]]
-    lengths = [SWING + longer_for(float(off[foot])) for foot in feet]
+    twice = [(foot, 0.5) for foot in feet if off[foot] > FARTHEST]
+    falls = [*twice, *((foot, 1.0) for foot in feet)]
+    far = np.where(off > FARTHEST, off / 2, off)
+    lengths = [SWING + longer_for(float(far[foot])) for foot, _ in falls]
     steps: list[Footfall] = []
     begin, finish = _upright(start, end, made)
-    latest = finish - sum(lengths) - PAUSE * max(0, len(feet) - 1)
-    for foot, length in zip(feet, lengths, strict=True):
-        earliest = steps[-1].end + PAUSE if steps else 1 if middles[foot] <= 0.0 else begin
-        first = int(np.clip(round(middles[foot] - length / 2), earliest, max(earliest, latest)))
-        steps.append(Footfall(foot, first, first + length, 1.0))
+    latest = (made.frames - LEFT if twice else finish) - sum(lengths) - PAUSE * max(0, len(falls) - 1)
+    for (foot, share), length in zip(falls, lengths, strict=True):
+        earliest = steps[-1].end + PAUSE if steps else 1 if twice or middles[foot] <= 0.0 else begin
+        wanted = 0.0 if twice else middles[foot] - length / 2
+        first = int(np.clip(round(wanted), earliest, max(earliest, latest)))
+        steps.append(Footfall(foot, first, first + length, share))
         latest += length + PAUSE
-    return steps
+    return steps if not steps or steps[-1].end < made.frames else None
 
 
 def _upright(start: Stand, end: Stand, made: Motion) -> tuple[int, int]:

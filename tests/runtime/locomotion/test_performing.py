@@ -273,3 +273,26 @@ def test_a_motion_of_a_text_begins_where_the_character_stands_and_ends_in_a_stan
 def test_without_a_generator_a_text_names_what_is_missing() -> None:
     with pytest.raises(InvalidInputError, match="needs a generator"):
         perform([Generate("wave", 3.0)])
+
+
+def test_who_sits_and_shall_stand_elsewhere_gets_up_first_and_steps_there() -> None:
+    seat = Act({"pelvis": (0.0, 0.55, 2.0)}, heading=np.pi, approach=(0.0, 1.6), name="sit")
+    done = perform([seat, WalkTo(0.9, 1.2)])
+    hold = max(index for index, segment in enumerate(done.segments) if segment.kind == "hold")
+    up, steps = done.segments[hold + 1 : hold + 3]
+    assert (up.kind, steps.kind) == ("transition", "transition")
+    risen = done.motion.root[up.end - 1]
+    standing = FakeCharacterModels().standing.root[0, 1]
+    assert risen[1] == pytest.approx(standing, abs=0.02)
+    assert np.hypot(*(risen - done.motion.root[up.start - 1])[[0, 2]]) < 0.3
+    np.testing.assert_allclose(done.motion.root[-1, [0, 2]], [0.9, 1.2], atol=0.01)
+
+
+@pytest.mark.parametrize(("height", "rises"), [(0.55, True), (0.9, False)])
+def test_nobody_walks_away_in_a_pose_that_is_no_stand(height: float, *, rises: bool) -> None:
+    pose = Act({"pelvis": (0.0, height, 1.0)}, heading=0.0, name="pose")
+    done = perform([pose, WalkTo(0, 8)])
+    hold = max(index for index, segment in enumerate(done.segments) if segment.kind == "hold")
+    after = done.segments[hold + 1]
+    assert (after.frames == 60) is rises  # a whole transition, or the first step of the walk
+    assert done.motion.root[after.end - 1, 1] == pytest.approx(FakeCharacterModels().standing.root[0, 1], abs=0.05)

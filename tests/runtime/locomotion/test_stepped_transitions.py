@@ -92,6 +92,15 @@ def test_who_sits_down_steps_before_and_who_rises_steps_afterwards() -> None:
     assert lowered(with_steps(seat, up), seat).max() < 0.6
 
 
-def test_a_foot_that_has_farther_to_go_than_a_step_goes_as_it_did() -> None:
-    before, made = glided(Goal(0, FARTHEST + 0.2))
+def test_feet_that_go_farther_than_a_step_take_two_each() -> None:
+    before, made = glided(Goal(0, FARTHEST + 0.3))
+    feet = ankles(before, with_steps(before, made))
+    moving = np.linalg.norm(np.diff(feet[..., [0, 2]], axis=0), axis=2) > 5e-3
+    assert not moving.all(axis=1).any()
+    swings = [np.count_nonzero(np.diff(np.pad(moving[:, foot], 1).astype(int)) == 1) for foot in range(2)]
+    assert swings == [2, 2]
+
+
+def test_feet_that_would_need_more_go_as_they_did() -> None:
+    before, made = glided(Goal(0, 2 * FARTHEST + 0.2))
     assert with_steps(before, made) is made
