@@ -10,6 +10,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+import numpy.typing as npt
 
 from motionrt.locomotion.footfalls import LEAD, PAUSE, SWING, Footfall
 from motionrt.locomotion.stepping import (
@@ -30,6 +31,8 @@ LOWERS, STILL_UP = 0.15, 0.45  # metres that who sits down or rises goes down or
 FARTHEST = 1.2  # metres of a step: a foot that goes farther takes two; one that needs more goes as the network says
 
 _ANKLES = [leg[2] for leg in LEG_JOINTS]
+
+Values = npt.NDArray[np.float64]
 
 
 def with_steps(seed: Motion, made: Motion) -> Motion:
@@ -53,39 +56,42 @@ def with_steps(seed: Motion, made: Motion) -> Motion:
 def _planned(start: Stand, end: Stand, made: Motion, behind: int | None) -> list[Footfall] | None:
     """Steps for each foot that is displaced, in the order in which the network moves them; None if one is too far."""
     off = np.hypot(*(end.ankles - start.ankles)[:, [0, 2]].T)
-    if off.max() > 2 * FARTHEST:
+    far = off > FARTHEST
+    if (off > 2 * FARTHEST).any():
         return None
-    high = start.ankles[:, 1] - end.ankles[:, 1]
-    ankles = made.positions()[:, _ANKLES].astype(np.float64)
-    moved = np.linalg.norm(np.diff(np.concatenate([start.ankles[None], ankles]), axis=0), axis=2)
-    middles = np.arange(1, made.frames + 1) @ moved / np.maximum(moved.sum(axis=0), 1e-9)
-    if behind is not None:
-        middles[behind] = 0.0  # a walk goes on with the foot that is behind ...
-    middles = np.where(high > IN_THE_AIR, -high, middles)  # ... or in the air
-    feet = [int(foot) for foot in np.argsort(middles) if displaced(start, end)[foot]]
-    twice = [(foot, 0.5) for foot in feet if off[foot] > FARTHEST]
-    falls = [*twice, *((foot, 1.0) for foot in feet)]
-    far = np.where(off > FARTHEST, off / 2, off)
-    lengths = [SWING + longer_for(float(far[foot])) for foot, _ in falls]
+    when = _when(start, end, made, behind)
+    feet = [int(foot) for foot in np.argsort(when) if displaced(start, end)[foot]]
+    falls = [*((foot, 0.5) for foot in feet if far[foot]), *((foot, 1.0) for foot in feet)]
+    lengths = [SWING + longer_for(float(off[foot]) / (2 if far[foot] else 1)) for foot, _ in falls]
+    begin, finish = (1, made.frames - LEFT) if far.any() else _upright(start, end, made)
+    latest = finish - sum(lengths) - PAUSE * max(0, len(falls) - 1)
     steps: list[Footfall] = []
-    begin, finish = _upright(start, end, made)
-    latest = (made.frames - LEFT if twice else finish) - sum(lengths) - PAUSE * max(0, len(falls) - 1)
     for (foot, share), length in zip(falls, lengths, strict=True):
-        earliest = steps[-1].end + PAUSE if steps else 1 if twice or middles[foot] <= 0.0 else begin
-        wanted = 0.0 if twice else middles[foot] - length / 2
-        first = int(np.clip(round(wanted), earliest, max(earliest, latest)))
+        earliest = steps[-1].end + PAUSE if steps else 1 if when[foot] <= 0.0 else begin
+        wanted = earliest if far.any() else round(when[foot] - length / 2)
+        first = int(np.clip(wanted, earliest, max(earliest, latest)))
         steps.append(Footfall(foot, first, first + length, share))
         latest += length + PAUSE
     return steps if not steps or steps[-1].end < made.frames else None
 
 
+def _when(start: Stand, end: Stand, made: Motion, behind: int | None) -> Values:
+    """``(2,)`` in the middle of which frames the network moves each foot; 0 or less for one that has to go at once."""
+    ankles = made.positions()[:, _ANKLES].astype(np.float64)
+    moved = np.linalg.norm(np.diff(np.concatenate([start.ankles[None], ankles]), axis=0), axis=2)
+    middles = np.arange(1, made.frames + 1) @ moved / np.maximum(moved.sum(axis=0), 1e-9)
+    if behind is not None:
+        middles[behind] = 0.0  # a walk goes on with the foot that is behind ...
+    high = start.ankles[:, 1] - end.ankles[:, 1]
+    return np.where(high > IN_THE_AIR, -high, middles)  # ... or in the air
+
+
 def _upright(start: Stand, end: Stand, made: Motion) -> tuple[int, int]:
     """The first and the last frame for steps: who sits down steps before, who rises steps afterwards."""
-    falls = float(start.root[1] - end.root[1])
-    begin, finish = LEAD, made.frames - LEFT
-    if abs(falls) > LOWERS:
-        done = (start.root[1] - made.root[:, 1]) / falls
-        share = STILL_UP if falls > 0 else 1.0 - STILL_UP
-        mark = int((done > share).argmax())
-        begin, finish = (begin, mark) if falls > 0 else (min(mark, finish - 2 * SWING), finish)
-    return begin, finish
+    begin, finish, lower = LEAD, made.frames - LEFT, float(start.root[1] - end.root[1])
+    if abs(lower) < LOWERS:
+        return begin, finish
+    done = (start.root[1] - made.root[:, 1]) / lower
+    if lower > 0:
+        return begin, int((done > STILL_UP).argmax())
+    return min(int((done > 1.0 - STILL_UP).argmax()), finish - 2 * SWING), finish
