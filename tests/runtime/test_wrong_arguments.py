@@ -21,6 +21,7 @@ from motionrt.errors import MotionRTError
 from motionrt.locomotion import Agent, Goal, Path, Scene, SemanticCloud
 from motionrt.locomotion.posing.targets import targets_of
 from motionrt.locomotion.transitions import transition
+from motionrt.metrics.penetration import checked_surfaces
 from motionrt.models.text import checked_texts
 from motionrt.retrieval import Gallery
 from motionrt.synthesis.composing import Layer
@@ -65,7 +66,11 @@ class _Models(FakeCharacterModels):
     def transition(self, seed: Any, target: Any, goal: Any = None, *, held: Any = False) -> Any:
         return transition(lambda frames, hidden: frames, seed, target, goal, held=held)
 
-    def pose(self, keypoints: Any, heading: Any = None, *, floor: Any = 0.0, tolerance_cm: float = 5.0) -> Any:
+    def pose(
+        self, keypoints: Any, heading: Any = None, *, floor: Any = 0.0, tolerance_cm: float = 5.0, surfaces: Any = None
+    ) -> Any:
+        if surfaces is not None:
+            checked_surfaces(surfaces)
         return targets_of(keypoints, heading, floor)
 
 
