@@ -19,12 +19,22 @@ from motionrt.motion import SMPL24, Motion
 from motionrt.motion.feet.lock import smooth_cover
 
 ROUNDS = 4
+REACH = 1.5  # metres from the pelvis beyond which no arm reaches
 FARTHEST = 0.25  # metres that a wrist is moved
 HALF = 6  # frames to either side over which a correction comes and goes
 _SHARES = np.linspace(0.2, 1.0, 6)  # of the way from the elbow to the wrist
 _SKIN = THICKNESS["forearm"]
 
 Values = npt.NDArray[np.float64]
+
+
+def in_reach(motion: Motion, surfaces: npt.ArrayLike) -> Values:
+    """Of points ``(N, 3)`` those that a hand of ``motion`` could come near to: pieces of planes cost much to find."""
+    from scipy.spatial import cKDTree
+
+    points = np.asarray(surfaces, dtype=np.float64)
+    away, _ = cKDTree(motion.root).query(points, distance_upper_bound=REACH)
+    return np.asarray(points[np.isfinite(away)])
 
 
 def clear_forearms(motion: Motion, surfaces: Surfaces, holds: Sequence[Hold]) -> Motion:

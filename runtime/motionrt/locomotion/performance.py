@@ -9,7 +9,7 @@ from pathlib import Path as FilePath
 
 import numpy as np
 
-from motionrt.locomotion.clearing import clear_forearms
+from motionrt.locomotion.clearing import clear_forearms, in_reach
 from motionrt.locomotion.held_points import hold_points
 from motionrt.locomotion.path import Path
 from motionrt.locomotion.terrain import Heights, Terrain, on_plane, raised, smoothed
@@ -162,8 +162,9 @@ def performance_of(
     if foot_lock and under is not None:
         motion = feet_on_ground(motion, planted_toes(plane), ground, under)
     motion = hold_points(motion, holds) if foot_lock else motion
-    if surfaces is not None and len(surfaces):
-        motion = clear_forearms(motion, Surfaces(surfaces.astype(np.float64)), holds)
+    near = None if surfaces is None else in_reach(motion, surfaces)
+    if near is not None and len(near):
+        motion = clear_forearms(motion, Surfaces(near), holds)
     pairs = zip(segments, aims, strict=True)
     measured = tuple(_measured(plane if isinstance(aim, Motion) else motion, segment, aim) for segment, aim in pairs)
     return Performance(motion, measured, tuple(aim for aim in aims if isinstance(aim, Path)), ground, surfaces)

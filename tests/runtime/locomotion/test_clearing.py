@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from motionrt.locomotion.clearing import clear_forearms
+from motionrt.locomotion.clearing import clear_forearms, in_reach
 from motionrt.locomotion.starting_poses import standing as shipped
 from motionrt.metrics.penetration import THICKNESS, Surfaces
 from motionrt.motion import SMPL24, Motion
@@ -71,3 +71,9 @@ def test_what_is_out_of_reach_changes_no_bit(stands: Motion) -> None:
     cleared = clear_forearms(stands, Surfaces(board(stands, 3.0)), [])
     np.testing.assert_array_equal(cleared.rotations, stands.rotations)
     np.testing.assert_array_equal(cleared.root, stands.root)
+
+
+def test_only_what_an_arm_could_reach_is_looked_at_and_that_whole(stands: Motion) -> None:
+    near, far = board(stands, 0.01), board(stands, 3.0)
+    np.testing.assert_array_equal(in_reach(stands, np.concatenate([far, near])), near)
+    assert in_reach(stands, far).shape == (0, 3)
